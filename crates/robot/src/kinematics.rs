@@ -1,0 +1,7 @@
+//! Jacobians, inverse kinematics and the following of paths.
+
+pub(crate) mod differential;
+pub(crate) mod inverse;
+mod jacobian;
+mod pseudo_inverse;
+pub(crate) mod task_rows;

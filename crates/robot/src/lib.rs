@@ -1,0 +1,47 @@
+//! Kinematics and dynamics of an arm described by a URDF file.
+//!
+//! A [`Manipulator`] is the constant model; a [`Workspace`] is the scratch memory in which forward kinematics, Jacobians,
+//! the mass matrix, the Coriolis matrix, inverse and forward dynamics are evaluated without allocation. Everything is
+//! in SI units and radians, in `f64`, and expressed in the axes of the arm's base unless a name says otherwise.
+//!
+//! ```
+//! use nalgebra::{DMatrix, DVector};
+//! use robot::{InverseKinematics, InverseKinematicsOptions, Manipulator, TaskRows};
+//!
+//! # fn main() -> Result<(), robot::RobotError> {
+//! let arm = Manipulator::from_urdf_str(include_str!("../../../assets/robots/planar_3r.urdf"))?;
+//! let flange = arm.frame("flange")?;
+//!
+//! let target = nalgebra::Isometry3::translation(0.05, 0.30, 0.0);
+//! let mut solver = InverseKinematics::new(&arm, flange, TaskRows::PlanarPose, InverseKinematicsOptions::default())?;
+//! let solution = solver.solve(&target, &DVector::from_vec(vec![-0.9, 1.8, -0.9]))?;
+//!
+//! let mut workspace = arm.workspace();
+//! let mut mass_matrix = DMatrix::zeros(3, 3);
+//! workspace.set_positions(&solution.q)?;
+//! workspace.mass_matrix_into(&mut mass_matrix);
+//! assert!(mass_matrix[(0, 0)] > mass_matrix[(2, 2)]);
+//! # Ok(())
+//! # }
+//! ```
+
+mod dynamics;
+mod error;
+mod joint;
+mod kinematics;
+mod manipulator;
+mod shape;
+mod spatial;
+mod state;
+mod urdf;
+mod workspace;
+
+pub use error::{RobotError, Warning};
+pub use joint::{Body, Joint, JointKind, JointLimits};
+pub use kinematics::differential::{DifferentialKinematics, FrameMotion};
+pub use kinematics::inverse::{InverseKinematics, InverseKinematicsOptions, InverseKinematicsSolution};
+pub use kinematics::task_rows::{TaskError, TaskRows};
+pub use manipulator::{FrameId, Manipulator};
+pub use shape::{Geometry, Shape};
+pub use state::{JointReference, JointState};
+pub use workspace::Workspace;
