@@ -1,0 +1,162 @@
+//! The errors of this crate: one enum, its values as fields, so that a caller can word or locate them anew.
+
+use thiserror::Error;
+
+/// States why an operation of this crate was refused; the text is a lower-case fragment that fits after a prefix.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SkillError {
+    /// A configuration value lies outside its range.
+    #[error("check configuration: {field} is {found}; expected {expected}; change {field}")]
+    InvalidConfig {
+        /// Dotted path of the value, relative to the configuration struct that was validated.
+        field: String,
+        /// The value found, with its unit.
+        found: String,
+        /// The range or kind expected.
+        expected: String,
+    },
+    /// An argument of a call lies outside its range.
+    #[error("{operation}: {argument} is {found}; expected {expected}; pass another {argument}")]
+    InvalidArgument {
+        /// What was attempted.
+        operation: &'static str,
+        /// Name of the argument, with its unit as suffix.
+        argument: &'static str,
+        /// The value found.
+        found: f64,
+        /// The range expected.
+        expected: &'static str,
+    },
+    /// A table of samples has the wrong number of rows.
+    #[error("{operation}: found {found} rows; expected {expected}; give one row per instant")]
+    RowCount {
+        /// What was attempted.
+        operation: &'static str,
+        /// Rows found.
+        found: usize,
+        /// Rows expected, in words.
+        expected: String,
+    },
+    /// A vector or table has the wrong number of coordinates.
+    #[error("{operation}: found {found} coordinates; expected {expected}; give one value per coordinate")]
+    Dimension {
+        /// What was attempted.
+        operation: &'static str,
+        /// Coordinates found.
+        found: usize,
+        /// Coordinates expected.
+        expected: usize,
+    },
+    /// A sample is not a finite number.
+    #[error("{operation}: row {row}, column {column} is {found}; expected a finite number; mend or drop that row")]
+    NonFinite {
+        /// What was attempted.
+        operation: &'static str,
+        /// Row of the sample, from 0.
+        row: usize,
+        /// Column of the sample, from 0.
+        column: usize,
+        /// The value found.
+        found: f64,
+    },
+    /// The times of a trajectory do not increase strictly.
+    #[error(
+        "check trajectory: time {time_s} s of row {row} follows {previous_s} s; expected strictly increasing finite \
+         times; drop repeated rows"
+    )]
+    TimesNotIncreasing {
+        /// Row at fault, from 0.
+        row: usize,
+        /// Time of the row before, s (the row's own time if it is the first).
+        previous_s: f64,
+        /// Time of the row, s.
+        time_s: f64,
+    },
+    /// Two trajectories to be joined do not meet.
+    #[error(
+        "concatenate trajectories: the ends are {gap} apart; expected at most {largest_gap}; move the second one or \
+         allow a larger gap"
+    )]
+    Gap {
+        /// Euclidean distance of the two ends, in the unit of the samples.
+        gap: f64,
+        /// Largest distance allowed, in the unit of the samples.
+        largest_gap: f64,
+    },
+    /// There is nothing to learn from.
+    #[error("learn primitive: found 0 demonstrations; expected at least 1; record or load one")]
+    NoDemonstrations,
+    /// A demonstration has another dimension than the first.
+    #[error(
+        "learn primitive: demonstration {demonstration} has {found} coordinates; expected {expected} as in \
+         demonstration 0; learn them apart"
+    )]
+    DemonstrationDimension {
+        /// Index of the demonstration, from 0.
+        demonstration: usize,
+        /// Its coordinates.
+        found: usize,
+        /// Coordinates of the first demonstration.
+        expected: usize,
+    },
+    /// The scaled forcing term cannot be learnt where a demonstration ends at its start.
+    #[error(
+        "learn primitive: demonstration {demonstration} displaces coordinate {coordinate} by {displacement} only; \
+         expected more than {smallest} to scale its forcing term by; use form = \"residual\""
+    )]
+    NoDisplacement {
+        /// Index of the demonstration, from 0.
+        demonstration: usize,
+        /// Index of the coordinate, from 0.
+        coordinate: usize,
+        /// Goal minus start, in the unit of the samples.
+        displacement: f64,
+        /// Smallest displacement accepted, in the unit of the samples.
+        smallest: f64,
+    },
+    /// The normal equations of a regression are not positive definite.
+    #[error(
+        "fit weights: {samples} samples leave {bases} bases undetermined; expected positive definite normal \
+         equations; raise lambda or use fewer bases"
+    )]
+    Undetermined {
+        /// Number of samples.
+        samples: usize,
+        /// Number of bases.
+        bases: usize,
+    },
+}
+
+impl SkillError {
+    /// Prefixes the field of [`SkillError::InvalidConfig`] with the path of the struct it lies in; leaves others alone.
+    #[must_use]
+    pub fn within(self, path: &str) -> Self {
+        match self {
+            Self::InvalidConfig { field, found, expected } => {
+                Self::InvalidConfig { field: format!("{path}.{field}"), found, expected }
+            }
+            other => other,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_path_of_a_nested_field_is_dotted() {
+        let inner =
+            SkillError::InvalidConfig { field: "lambda".into(), found: "-1".into(), expected: "a number".into() };
+        let SkillError::InvalidConfig { field, .. } = inner.within("ridge").within("regression") else {
+            panic!("the kind of the error changed");
+        };
+        assert_eq!(field, "regression.ridge.lambda");
+    }
+
+    #[test]
+    fn other_errors_have_no_path() {
+        assert_eq!(SkillError::NoDemonstrations.within("dmp"), SkillError::NoDemonstrations);
+    }
+}
