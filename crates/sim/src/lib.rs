@@ -1,0 +1,11 @@
+//! Rapier scenes, controllers and the control loop.
+
+pub mod controllers;
+mod error;
+pub mod human;
+pub mod planar;
+pub mod random;
+pub mod sensing;
+pub mod support;
+
+pub use error::SimError;

@@ -1,0 +1,180 @@
+//! What a planar scene is made of, as a scenario states it.
+
+use nalgebra::{Isometry2, Point2, Vector2};
+use serde::{Deserialize, Serialize};
+use skills::field::{FieldError, finite, positive, within};
+use skills::outline::{Outline, PlacedOutline};
+
+use crate::support::SupportModel;
+
+/// The table seen from above: map bounds, gravity into the table, fixed obstacles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorldConfig {
+    /// Area in which the object may be, world frame.
+    pub map: MapBounds,
+    /// Gravity into the table, m/s².
+    #[serde(default = "standard_gravity")]
+    pub gravity_m_per_s2: f64,
+    /// Fixed obstacles.
+    #[serde(default)]
+    pub obstacles: Vec<Obstacle>,
+}
+
+fn standard_gravity() -> f64 {
+    9.81
+}
+
+/// An axis-aligned rectangle in the world frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MapBounds {
+    /// Lower left corner, m.
+    pub min_m: [f64; 2],
+    /// Upper right corner, m.
+    pub max_m: [f64; 2],
+}
+
+impl MapBounds {
+    /// Smallest distance of a point from the bounds, m: negative outside.
+    #[must_use]
+    pub fn margin_m(&self, point: &Point2<f64>) -> f64 {
+        let low = point - Point2::from(self.min_m);
+        let high = Point2::from(self.max_m) - point;
+        low.x.min(low.y).min(high.x).min(high.y)
+    }
+}
+
+/// A fixed, named obstacle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// Name, as reports call it.
+    pub name: String,
+    /// Outline in its own frame.
+    pub shape: Outline,
+    /// Position of its frame in the world, m.
+    pub position_m: [f64; 2],
+    /// Rotation of its frame in the world, rad.
+    #[serde(default)]
+    pub angle_rad: f64,
+    /// Coefficient of friction against the object and the tool.
+    #[serde(default = "default_obstacle_friction")]
+    pub friction: f64,
+}
+
+fn default_obstacle_friction() -> f64 {
+    0.3
+}
+
+impl Obstacle {
+    /// The obstacle's outline at its pose in the world.
+    #[must_use]
+    pub fn placed(&self) -> PlacedOutline {
+        PlacedOutline { shape: self.shape.clone(), position_m: self.position_m, angle_rad: self.angle_rad }
+    }
+}
+
+/// The object that is pushed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObjectConfig {
+    /// Name, as reports call it.
+    #[serde(default = "default_object_name")]
+    pub name: String,
+    /// Outline in its own frame.
+    pub shape: Outline,
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Coefficient of friction between the object and the table.
+    pub table_friction: f64,
+    /// Law of friction on the table.
+    #[serde(default)]
+    pub support: SupportModel,
+}
+
+fn default_object_name() -> String {
+    "object".into()
+}
+
+impl WorldConfig {
+    /// Checks bounds and obstacles.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        finite("map.min_m", &self.map.min_m)?;
+        finite("map.max_m", &self.map.max_m)?;
+        let size = Vector2::from(self.map.max_m) - Vector2::from(self.map.min_m);
+        if size.min() <= 0.0 {
+            let found = format!("{:?}, which is not above min_m = {:?}", self.map.max_m, self.map.min_m);
+            return Err(FieldError::new("map.max_m", found, "a corner above and to the right of min_m"));
+        }
+        positive("gravity_m_per_s2", self.gravity_m_per_s2)?;
+        for (index, obstacle) in self.obstacles.iter().enumerate() {
+            let at = |error: FieldError| error.within(format!("obstacles.{index}"));
+            obstacle.placed().validate().map_err(at)?;
+            within("friction", obstacle.friction, 0.0, 5.0).map_err(at)?;
+        }
+        Ok(())
+    }
+
+    /// Smallest distance between the outline at `pose` and an obstacle (negative when they overlap) with its index, m.
+    #[must_use]
+    pub fn clearance_m(&self, outline: &Outline, pose: &Isometry2<f64>) -> Option<(usize, f64)> {
+        let clearances = self.obstacles.iter().enumerate().filter_map(|(index, obstacle)| {
+            Some((index, skills::outline::separation_m(outline, pose, &obstacle.shape, &obstacle.placed().pose())?))
+        });
+        clearances.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+impl ObjectConfig {
+    /// Checks outline, mass and friction.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        self.shape.validate().map_err(|error| error.within("shape"))?;
+        positive("mass_kg", self.mass_kg)?;
+        within("table_friction", self.table_friction, 0.0, 5.0)?;
+        self.support.validate().map_err(|error| error.within("support"))
+    }
+}
+
+/// How time advances and how the engine solves contacts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct EngineConfig {
+    /// Time step of the physics, s.
+    pub time_step_s: f64,
+    /// Substeps of the contact solver within a time step.
+    pub substeps: usize,
+    /// Natural frequency of contacts, Hz: a contact under load gives way by the load's acceleration over (2πf)².
+    pub contact_frequency_hz: f64,
+    /// Size of the smallest features, m: scales the engine's tolerances.
+    pub length_unit_m: f64,
+}
+
+impl Default for EngineConfig {
+    fn default() -> Self {
+        Self { time_step_s: 0.0005, substeps: 1, contact_frequency_hz: 300.0, length_unit_m: 0.02 }
+    }
+}
+
+impl EngineConfig {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        within("time_step_s", self.time_step_s, 1e-6, 0.01)?;
+        positive("contact_frequency_hz", self.contact_frequency_hz)?;
+        positive("length_unit_m", self.length_unit_m)?;
+        if (1..=64).contains(&self.substeps) {
+            Ok(())
+        } else {
+            Err(FieldError::new("substeps", self.substeps, "a number from 1 to 64"))
+        }
+    }
+}

@@ -1,0 +1,286 @@
+//! The tool's reference while a plan is carried out, open loop or steered by the object that is seen.
+
+use nalgebra::{Isometry2, Point2, Unit, Vector2};
+use skills::plan::{Action, ActionKind, Plan, PlanarMotion, Push};
+use skills::pushing::{Steering, SteeringConfig};
+use skills::tool::Tool;
+
+use super::config::ObjectConfig;
+use super::tracker::Tracker;
+use crate::sensing::{CameraConfig, Sighting};
+
+/// Where the tool should be now, and what the plan expects of the object.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolReference {
+    /// Motion of the tool, world frame.
+    pub tool: PlanarMotion,
+    /// Where the plan expects the object.
+    pub world_from_object_expected: Isometry2<f64>,
+    /// Index of the current action.
+    pub phase: usize,
+    /// Whether the plan has come to its end.
+    pub finished: bool,
+}
+
+/// Source of the tool's reference, asked once per control period.
+pub trait ReferenceSource {
+    /// The reference at `time_s`, given the newest sighting of the object; allocates nothing.
+    fn next(&mut self, time_s: f64, sighting: Option<&Sighting>) -> ToolReference;
+}
+
+/// Follows the plan whatever the object does.
+#[derive(Clone, Debug)]
+pub struct OpenLoop<'a> {
+    plan: &'a Plan,
+}
+
+impl<'a> OpenLoop<'a> {
+    /// Follows `plan`.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        Self { plan }
+    }
+}
+
+impl ReferenceSource for OpenLoop<'_> {
+    fn next(&mut self, time_s: f64, _sighting: Option<&Sighting>) -> ToolReference {
+        let (phase, local_s) = self.plan.due_at(time_s);
+        let action = self.plan.actions().get(phase);
+        let motion = |track: fn(&Action) -> &skills::plan::Track| {
+            action.map(|action| track(action).at(local_s)).unwrap_or_default()
+        };
+        ToolReference {
+            tool: motion(|action| &action.tool),
+            world_from_object_expected: motion(|action| &action.object).pose(),
+            phase,
+            finished: time_s >= self.plan.duration_s(),
+        }
+    }
+}
+
+/// Steers each push by the object that the camera sees, and goes from hold to hold where the object really is.
+///
+/// Rules. While pushing, the tool's velocity comes from the steering law, fed by a tracker that bridges the camera's
+/// latency with the tool's own known motion; the push ends when the object has come as far along its line as planned,
+/// or when it has taken [`ClosedLoopConfig::patience`] times the planned time. Between pushes the planned way is bent to
+/// where the object rests, so that the next hold is taken where it is; the last leg of a plan aims at the goal itself.
+#[derive(Clone, Debug)]
+pub struct ClosedLoop<'a> {
+    plan: &'a Plan,
+    tool: &'a Tool,
+    config: ClosedLoopConfig,
+    period_s: f64,
+    tracker: Tracker,
+    friction_length_m: f64,
+    object_radius_m: f64,
+    phase: usize,
+    begun_s: f64,
+    /// Where the tool should be now.
+    now: PlanarMotion,
+    /// What the current way of the tool must be shifted by at its start, fading to its end.
+    start_shift: Vector2<f64>,
+    /// What it is shifted by because the object rests elsewhere than planned.
+    object_shift: Vector2<f64>,
+    steering: Option<(Push, Steering, Unit<Vector2<f64>>)>,
+    finished: bool,
+}
+
+/// Settings of [`ClosedLoop`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedLoopConfig {
+    /// The steering law.
+    pub steering: SteeringConfig,
+    /// Time constant with which the reference takes up a commanded velocity, s.
+    pub response_s: f64,
+    /// A push may last this many times its planned duration.
+    pub patience: f64,
+}
+
+/// The tool slows down over this distance before the end of a push, m; the object coasts less than a tenth of it.
+const SLOW_DOWN_M: f64 = 0.004;
+/// Slowest speed of a push before it ends, as a share of its speed.
+const SLOWEST_SHARE: f64 = 0.2;
+/// A push ends this far before its line's end, m: what the object still moves while the tool stops.
+const STOP_EARLY_M: f64 = 0.0002;
+
+impl<'a> ClosedLoop<'a> {
+    /// Prepares to carry out `plan` with `tool` on `object`, one reference every `period_s`.
+    #[must_use]
+    pub fn new(
+        plan: &'a Plan,
+        tool: &'a Tool,
+        object: &ObjectConfig,
+        camera: &CameraConfig,
+        config: ClosedLoopConfig,
+        period_s: f64,
+    ) -> Self {
+        let first = plan.actions().first();
+        let start = first.map(|action| action.tool.start()).unwrap_or_default();
+        let expected = first.map(|action| action.object.start()).unwrap_or_default();
+        let friction_length_m = object.shape.mean_radius_m();
+        let object_radius_m = inscribed_radius_m(object);
+        Self {
+            tracker: Tracker::new(tool, object_radius_m, friction_length_m, expected.point(), camera, period_s),
+            plan,
+            tool,
+            config,
+            period_s,
+            friction_length_m,
+            object_radius_m,
+            phase: 0,
+            begun_s: 0.0,
+            now: start,
+            start_shift: Vector2::zeros(),
+            object_shift: Vector2::zeros(),
+            steering: None,
+            finished: false,
+        }
+    }
+
+    /// Where the object is believed to be now, world frame.
+    #[must_use]
+    pub fn believed_object_world(&self) -> Point2<f64> {
+        self.tracker.object_world()
+    }
+
+    fn begin(&mut self, phase: usize, time_s: f64) {
+        let Some(action) = self.plan.actions().get(phase) else {
+            self.finished = true;
+            return;
+        };
+        self.phase = phase;
+        self.begun_s = time_s;
+        self.start_shift = self.now.position.xy() - action.tool.start().position.xy();
+        self.object_shift = self.shift_for(action);
+        self.steering = match action.kind {
+            ActionKind::ObjectOperating(push) => self.steer(push),
+            ActionKind::ToolFlipping => None,
+        };
+    }
+
+    /// How far the object rests from where the plan has it when a way of the tool ends.
+    fn shift_for(&self, action: &Action) -> Vector2<f64> {
+        match action.kind {
+            // only ways that lead to a hold follow the object
+            ActionKind::ToolFlipping if self.is_followed_by_push(action) => {
+                self.tracker.object_world() - action.object.end().point()
+            }
+            _ => Vector2::zeros(),
+        }
+    }
+
+    fn is_followed_by_push(&self, action: &Action) -> bool {
+        let next = self.plan.actions().iter().skip_while(|other| !std::ptr::eq(*other, action)).nth(1);
+        matches!(next.map(|next| next.kind), Some(ActionKind::ObjectOperating(_)))
+    }
+
+    fn steer(&self, push: Push) -> Option<(Push, Steering, Unit<Vector2<f64>>)> {
+        let surface = self.tool.surfaces.get(push.surface)?;
+        let direction = Unit::new_normalize(push.direction_world()?);
+        let steering = Steering::new(
+            &self.config.steering,
+            push.to_world,
+            direction,
+            surface.curvature_radius_m(),
+            surface.length_m() / 2.0,
+            self.object_radius_m,
+            self.friction_length_m,
+        );
+        Some((push, steering, direction))
+    }
+
+    /// The planned way of the tool, bent from where the tool is to where the object is.
+    fn way(&mut self, action: &Action, local_s: f64) -> PlanarMotion {
+        // what the camera shows on the way improves where it ends
+        let wanted = self.shift_for(action);
+        self.object_shift += (wanted - self.object_shift) * (self.period_s / RETARGET_S).min(1.0);
+        let duration = action.tool.duration_s();
+        let r = (local_s / duration).clamp(0.0, 1.0);
+        let (blend, rate, bend) = (
+            skills::time_law::minimum_jerk(r),
+            skills::time_law::minimum_jerk_first_derivative(r) / duration,
+            skills::time_law::minimum_jerk_second_derivative(r) / (duration * duration),
+        );
+        let change = self.object_shift - self.start_shift;
+        let mut motion = action.tool.at(local_s);
+        motion.position += (self.start_shift + change * blend).push(0.0);
+        motion.velocity += (change * rate).push(0.0);
+        motion.acceleration += (change * bend).push(0.0);
+        motion
+    }
+
+    /// One period of a steered push; true when it has come to its end.
+    fn push(&mut self, action: &Action, local_s: f64) -> bool {
+        let Some((push, steering, direction)) = &self.steering else { return true };
+        let Some(surface) = self.tool.surfaces.get(push.surface) else { return true };
+        let pose = self.now.pose();
+        let middle = surface.middle();
+        let normal = pose.rotation * middle.normal;
+        let object = self.tracker.object_world();
+        let left_m = (push.to_world - object).dot(direction) - STOP_EARLY_M;
+        let planned = action.tool.duration_s().max(self.period_s);
+        let speed = (push.to_world - push.from_world).norm() / planned;
+        let speed = speed * (left_m / SLOW_DOWN_M).clamp(SLOWEST_SHARE, 1.0);
+        let command = steering.command(&(pose * middle.point), &normal, &object, speed);
+        let done = left_m <= 0.0 || local_s > planned * self.config.patience;
+        self.approach_velocity(if done { Vector2::zeros() } else { command.velocity_world }, action, local_s);
+        // the tool is at rest before the next action begins
+        done && self.now.velocity.norm() < REST_M_PER_S
+    }
+
+    /// Moves the reference on by one period towards a commanded velocity.
+    fn approach_velocity(&mut self, velocity: Vector2<f64>, action: &Action, local_s: f64) {
+        let acceleration = (velocity - self.now.velocity.xy()) / self.config.response_s;
+        let angle = action.tool.at(local_s);
+        let next = self.now.velocity.xy() + acceleration * self.period_s;
+        let place = self.now.position.xy() + (self.now.velocity.xy() + next) * (0.5 * self.period_s);
+        self.now = PlanarMotion {
+            position: place.push(angle.position.z),
+            velocity: next.push(angle.velocity.z),
+            acceleration: acceleration.push(angle.acceleration.z),
+        };
+    }
+}
+
+/// Time constant with which the end of a way follows what the camera shows, s.
+const RETARGET_S: f64 = 0.15;
+/// Speed below which the tool counts as resting, m/s.
+const REST_M_PER_S: f64 = 0.0005;
+
+impl ReferenceSource for ClosedLoop<'_> {
+    fn next(&mut self, time_s: f64, sighting: Option<&Sighting>) -> ToolReference {
+        if time_s <= 0.0 {
+            self.begin(0, time_s);
+        }
+        self.tracker.advance(time_s, &self.now.pose(), sighting);
+        let local_s = time_s - self.begun_s;
+        let plan = self.plan;
+        if let Some(action) = plan.actions().get(self.phase).filter(|_| !self.finished) {
+            let over = match action.kind {
+                ActionKind::ToolFlipping => {
+                    self.now = self.way(action, local_s);
+                    local_s >= action.tool.duration_s()
+                }
+                ActionKind::ObjectOperating(_) => self.push(action, local_s),
+            };
+            if over {
+                self.begin(self.phase + 1, time_s);
+            }
+        }
+        let expected = plan.actions().get(self.phase).map(|action| action.object.at(local_s)).unwrap_or_default();
+        if self.finished {
+            self.now = PlanarMotion::at_rest(self.now.position);
+        }
+        ToolReference {
+            tool: self.now,
+            world_from_object_expected: expected.pose(),
+            phase: self.phase,
+            finished: self.finished,
+        }
+    }
+}
+
+/// Distance from the object's center to its nearest side, m.
+fn inscribed_radius_m(object: &ObjectConfig) -> f64 {
+    -object.shape.signed_distance_m(&object.shape.centroid())
+}

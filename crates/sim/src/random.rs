@@ -1,0 +1,29 @@
+//! Random numbers: one seed, a stream per purpose, so that a draw added in one place moves nothing elsewhere.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+/// What random numbers are drawn for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u64)]
+pub enum Purpose {
+    /// Errors of the camera that watches the robot.
+    Camera = 1,
+    /// The demonstrator's hand and decisions.
+    Hand = 2,
+    /// What the demonstrator sees.
+    Eyes = 3,
+    /// Errors of the camera that records demonstrations.
+    Recorder = 4,
+}
+
+/// Streams of one trial lie this far apart.
+const TRIAL_STRIDE: u64 = 64;
+
+/// The generator of a purpose, for trial number `trial` of a run with `seed`.
+#[must_use]
+pub fn stream(seed: u64, purpose: Purpose, trial: u64) -> ChaCha8Rng {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    random.set_stream(purpose as u64 + TRIAL_STRIDE * trial);
+    random
+}
