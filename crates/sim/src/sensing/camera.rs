@@ -156,7 +156,7 @@ mod tests {
     fn a_perfect_camera_sees_what_is_there_at_once() {
         let mut camera = Camera::new(&CameraConfig::perfect(), ChaCha8Rng::seed_from_u64(1));
         let there = Isometry2::new(Vector2::new(0.1, 0.2), 0.3);
-        assert_eq!(camera.look(0.0, &there).unwrap().world_from_object, there);
+        approx::assert_relative_eq!(camera.look(0.0, &there).unwrap().world_from_object, there, epsilon = 1e-15);
     }
 
     #[test]

@@ -2,8 +2,6 @@
 //!
 //! Disc of radius 12 mm, table friction 0.25, gravity 9.81 m/s² unless said otherwise.
 
-mod quasi_static;
-
 use nalgebra::{Isometry2, Point2, Rotation2, Vector2, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,6 +9,8 @@ use sim::planar::{EngineConfig, MapBounds, ObjectConfig, Party, PlanarWorld, Pus
 use sim::support::SupportModel;
 use skills::outline::{Outline, PlacedOutline};
 use skills::tool::{ContactSurface, SurfaceShape, Tool};
+
+use super::quasi_static;
 
 const RADIUS: f64 = 0.012;
 const TABLE: f64 = 0.25;
