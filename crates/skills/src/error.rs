@@ -2,20 +2,15 @@
 
 use thiserror::Error;
 
+use crate::field::FieldError;
+
 /// States why an operation of this crate was refused; the text is a lower-case fragment that fits after a prefix.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SkillError {
     /// A configuration value lies outside its range.
-    #[error("check configuration: {field} is {found}; expected {expected}; change {field}")]
-    InvalidConfig {
-        /// Dotted path of the value, relative to the configuration struct that was validated.
-        field: String,
-        /// The value found, with its unit.
-        found: String,
-        /// The range or kind expected.
-        expected: String,
-    },
+    #[error("check configuration: {0}")]
+    InvalidConfig(#[from] FieldError),
     /// An argument of a call lies outside its range.
     #[error("{operation}: {argument} is {found}; expected {expected}; pass another {argument}")]
     InvalidArgument {
@@ -126,37 +121,4 @@ pub enum SkillError {
         /// Number of bases.
         bases: usize,
     },
-}
-
-impl SkillError {
-    /// Prefixes the field of [`SkillError::InvalidConfig`] with the path of the struct it lies in; leaves others alone.
-    #[must_use]
-    pub fn within(self, path: &str) -> Self {
-        match self {
-            Self::InvalidConfig { field, found, expected } => {
-                Self::InvalidConfig { field: format!("{path}.{field}"), found, expected }
-            }
-            other => other,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_path_of_a_nested_field_is_dotted() {
-        let inner =
-            SkillError::InvalidConfig { field: "lambda".into(), found: "-1".into(), expected: "a number".into() };
-        let SkillError::InvalidConfig { field, .. } = inner.within("ridge").within("regression") else {
-            panic!("the kind of the error changed");
-        };
-        assert_eq!(field, "regression.ridge.lambda");
-    }
-
-    #[test]
-    fn other_errors_have_no_path() {
-        assert_eq!(SkillError::NoDemonstrations.within("dmp"), SkillError::NoDemonstrations);
-    }
 }

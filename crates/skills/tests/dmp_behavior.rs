@@ -259,7 +259,7 @@ fn no_demonstration_and_unequal_dimensions_are_refused() {
 fn invalid_options_are_refused_with_their_path_when_learning() {
     let config = PrimitiveConfig::Dmp(DmpConfig { bases: 0, ..DmpConfig::default() });
     let error = config.learn(&[demonstration()]).unwrap_err();
-    assert!(matches!(error, SkillError::InvalidConfig { field, .. } if field == "dmp.bases"));
+    assert!(matches!(error, SkillError::InvalidConfig(error) if error.field == "dmp.bases"));
 }
 
 #[test]

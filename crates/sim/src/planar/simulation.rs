@@ -156,6 +156,7 @@ struct Run {
     digest: blake3::Hasher,
     phase: Option<usize>,
     limited: bool,
+    was_limited: bool,
     last_touch_s: Option<f64>,
     lost_contact: bool,
 }
@@ -178,6 +179,7 @@ impl Run {
             digest: blake3::Hasher::new(),
             phase: None,
             limited: false,
+            was_limited: false,
             last_touch_s: None,
             lost_contact: false,
             world,
@@ -223,6 +225,7 @@ impl Run {
         });
         let contacts = self.world.contacts();
         let on_object = contacts.iter().filter(|contact| contact.force_on_n(Party::Object, Party::Tool).is_some());
+        let errors = self.reference.q.iter().zip(self.state.q.iter());
         let shares = torque.iter().zip(&self.limits_nm).map(|(torque, limit)| torque.abs() / limit);
         EpisodeSample {
             time_s,
@@ -236,7 +239,7 @@ impl Run {
             hits_obstacle: contacts
                 .iter()
                 .any(|contact| contact.parties.iter().any(|party| matches!(party, Party::Obstacle(_)))),
-            joint_error_rad: (&self.reference.q - &self.state.q).amax(),
+            joint_error_rad: errors.map(|(wanted, is)| (wanted - is).abs()).fold(0.0, f64::max),
             torque_share: shares.fold(0.0, f64::max),
             power_w: torque.iter().zip(self.state.dq.iter()).map(|(torque, speed)| (torque * speed).abs()).sum(),
         }
@@ -249,9 +252,10 @@ impl Run {
             self.phase = Some(reference.phase);
             tell(EventLevel::Info, format!("action {} begins", reference.phase + 1));
         }
-        if self.limited {
+        if self.limited && !self.was_limited {
             tell(EventLevel::Warning, "a joint torque is at its limit".into());
         }
+        self.was_limited = self.limited;
         let touches =
             self.world.contacts().iter().any(|contact| contact.force_on_n(Party::Object, Party::Tool).is_some());
         match self.last_touch_s {

@@ -13,6 +13,7 @@ pub use dmp::{Dmp, DmpConfig, DmpForm, DmpStepper};
 pub use rollout::{Rollout, RolloutRequest};
 
 use crate::error::SkillError;
+use crate::field::FieldError;
 use crate::trajectory::Trajectory;
 
 /// Learnt motion that can be rolled out to another start, goal and duration.
@@ -48,8 +49,8 @@ impl PrimitiveConfig {
     /// Checks the options of the kind.
     ///
     /// # Errors
-    /// [`SkillError::InvalidConfig`] with a field such as `dmp.bases`.
-    pub fn validate(&self) -> Result<(), SkillError> {
+    /// A [`FieldError`] with a field such as `dmp.bases`.
+    pub fn validate(&self) -> Result<(), FieldError> {
         match self {
             Self::Dmp(config) => config.validate().map_err(|error| error.within("dmp")),
         }

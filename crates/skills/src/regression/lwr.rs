@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{ForcingSamples, Regression};
 use crate::basis::GaussianBasis;
 use crate::error::SkillError;
+use crate::field::FieldError;
 
 /// Locally weighted regression of Eq. (4): w_i = Σ_m v_m φ_i(s_m) s_m F_m / Σ_m v_m φ_i(s_m) s_m².
 ///
@@ -43,7 +44,7 @@ impl Regression for Lwr {
         0.5
     }
 
-    fn validate(&self) -> Result<(), SkillError> {
+    fn validate(&self) -> Result<(), FieldError> {
         Ok(())
     }
 }

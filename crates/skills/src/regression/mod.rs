@@ -17,6 +17,7 @@ pub use ridge::Ridge;
 
 use crate::basis::GaussianBasis;
 use crate::error::SkillError;
+use crate::field::FieldError;
 
 /// Samples of a forcing term, of one or many demonstrations, in any order.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,8 +47,8 @@ pub trait Regression {
     /// Checks the options.
     ///
     /// # Errors
-    /// [`SkillError::InvalidConfig`] with the field relative to the options.
-    fn validate(&self) -> Result<(), SkillError>;
+    /// A [`FieldError`] with the field relative to the options.
+    fn validate(&self) -> Result<(), FieldError>;
 }
 
 /// Kinds of regression, as a table in a file: `regression.ridge.lambda = 1e-8` or `regression.lwr = {}`.
@@ -88,8 +89,8 @@ impl RegressionConfig {
     /// Checks the options of the kind.
     ///
     /// # Errors
-    /// [`SkillError::InvalidConfig`] with a field such as `ridge.lambda`.
-    pub fn validate(&self) -> Result<(), SkillError> {
+    /// A [`FieldError`] with a field such as `ridge.lambda`.
+    pub fn validate(&self) -> Result<(), FieldError> {
         self.regression().validate().map_err(|error| error.within(self.name()))
     }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{ForcingSamples, Regression};
 use crate::basis::GaussianBasis;
 use crate::error::SkillError;
+use crate::field::{FieldError, not_negative};
 
 /// Least squares with a ridge: (PᵀVP + λ·tr(PᵀVP)/n·I) W = PᵀVF, with P the M × n rows Ψ(s_m)ᵀ of Eq. (2), V the sample
 /// weights and F the targets of Eq. (5).
@@ -46,15 +47,8 @@ impl Regression for Ridge {
         0.7
     }
 
-    fn validate(&self) -> Result<(), SkillError> {
-        if self.lambda >= 0.0 && self.lambda.is_finite() {
-            return Ok(());
-        }
-        Err(SkillError::InvalidConfig {
-            field: "lambda".into(),
-            found: self.lambda.to_string(),
-            expected: "a finite number of at least 0".into(),
-        })
+    fn validate(&self) -> Result<(), FieldError> {
+        not_negative("lambda", self.lambda)
     }
 }
 

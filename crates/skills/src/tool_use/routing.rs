@@ -42,12 +42,17 @@ impl Surroundings<'_> {
         pieces.filter_map(distance).fold(object, f64::min)
     }
 
+    /// Whether the margin is kept at a place and half a look around it: distances change no faster than the tool moves.
+    fn is_free(&self, at: &Point2<f64>) -> bool {
+        self.clearance_m(at) >= self.margin_m + LOOK_M / 2.0
+    }
+
     fn is_straight_way_free(&self, from: &Point2<f64>, to: &Point2<f64>) -> bool {
         let looks = ((to - from).norm() / LOOK_M).ceil().max(1.0) as usize;
         // the ends are given: a hold may be nearer than the margin
         (1..looks).all(|look| {
             let at = from + (to - from) * (look as f64 / looks as f64);
-            self.clearance_m(&at) >= self.margin_m
+            self.is_free(&at)
         })
     }
 
@@ -103,7 +108,7 @@ impl Surroundings<'_> {
             let at = |distance: f64| self.object_world + ray * distance;
             let rings = (0..40).map(|k| farthest * (1.2 - f64::from(k) / 40.0));
             // from outside inwards, the last place that is still clear
-            let nearest = rings.take_while(|distance| self.clearance_m(&at(*distance)) >= self.margin_m).last();
+            let nearest = rings.take_while(|distance| self.is_free(&at(*distance))).last();
             places.extend(nearest.map(at));
         }
         places

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::error::SkillError;
+use crate::field::FieldError;
 use crate::regression::RegressionConfig;
 
 /// Which form of Eq. (1) the forcing term stands in; the attractor is the same in all three.
@@ -56,8 +56,8 @@ impl DmpConfig {
     /// Checks every option.
     ///
     /// # Errors
-    /// [`SkillError::InvalidConfig`] with the field relative to this struct, such as `regression.ridge.lambda`.
-    pub fn validate(&self) -> Result<(), SkillError> {
+    /// A [`FieldError`] with the field relative to this struct, such as `regression.ridge.lambda`.
+    pub fn validate(&self) -> Result<(), FieldError> {
         let bases = (2..=1000).contains(&self.bases);
         check(bases, "bases", self.bases, "a whole number from 2 to 1000")?;
         let alpha = self.alpha > 0.0 && self.alpha <= 1e4;
@@ -75,11 +75,8 @@ impl DmpConfig {
     }
 }
 
-fn check(holds: bool, field: &str, found: impl ToString, expected: &str) -> Result<(), SkillError> {
-    if holds {
-        return Ok(());
-    }
-    Err(SkillError::InvalidConfig { field: field.into(), found: found.to_string(), expected: expected.into() })
+fn check(holds: bool, field: &str, found: impl std::fmt::Display, expected: &str) -> Result<(), FieldError> {
+    if holds { Ok(()) } else { Err(FieldError::new(field, found, expected)) }
 }
 
 #[cfg(test)]
@@ -90,8 +87,8 @@ mod tests {
 
     fn field(config: DmpConfig) -> String {
         match PrimitiveConfig::Dmp(config).validate() {
-            Err(SkillError::InvalidConfig { field, .. }) => field,
-            other => panic!("{other:?}"),
+            Err(error) => error.field,
+            Ok(()) => panic!("accepted"),
         }
     }
 

@@ -1,0 +1,117 @@
+//! `wield list`: what there is to run and to name in scenarios.
+
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+
+use super::{Exit, assets_for, say, say_error};
+use crate::assets::{AssetKind, Assets, stems};
+use crate::scenario::{title, tool_description};
+use crate::tasks::TASKS;
+
+/// Options of `wield list`.
+#[derive(Debug, clap::Args)]
+pub struct ListArguments {
+    /// What to list; everything if absent
+    #[arg(value_name = "KIND")]
+    kind: Option<Listed>,
+}
+
+/// What can be listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Listed {
+    /// Scenario files beside the folder of assets
+    Scenarios,
+    /// Tool shapes
+    Tools,
+    /// Arms
+    Robots,
+    /// Kinds of tasks
+    Tasks,
+    /// Recorded demonstrations
+    Demonstrations,
+}
+
+/// Prints one line for each thing of the kind, or of all kinds under their headings.
+pub fn execute(arguments: &ListArguments, assets: Option<&Path>) -> Exit {
+    let assets = assets_for(assets, None);
+    if !assets.root().is_dir() && arguments.kind != Some(Listed::Tasks) {
+        say_error(&format!(
+            "list: found no folder of assets at {}; expected one; name it with --assets DIR or WIELD_ASSETS",
+            assets.root().display()
+        ));
+        return Exit::BadInput;
+    }
+    match arguments.kind {
+        Some(kind) => say(&lines(&entries(kind, &assets), "")),
+        None => {
+            let sections = Listed::value_variants().iter().map(|&kind| section(kind, &assets));
+            say(&sections.collect::<Vec<_>>().join("\n"))
+        }
+    }
+}
+
+fn section(kind: Listed, assets: &Assets) -> String {
+    let heading = kind.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
+    let entries = entries(kind, assets);
+    let body = if entries.is_empty() { "  none\n".to_owned() } else { lines(&entries, "  ") };
+    format!("{heading}:\n{body}")
+}
+
+/// Name and description of each thing of a kind.
+fn entries(kind: Listed, assets: &Assets) -> Vec<(String, String)> {
+    let describe = |kind: AssetKind, describe: fn(&Path) -> String| {
+        let named = assets.list(kind).into_iter();
+        named
+            .map(|name| {
+                let text = assets.path(kind, &name).map_or_else(|error| error.to_string(), |file| describe(&file));
+                (name, text)
+            })
+            .collect()
+    };
+    match kind {
+        Listed::Scenarios => scenarios(assets),
+        Listed::Tools => describe(AssetKind::Tool, tool),
+        Listed::Robots => describe(AssetKind::Robot, robot),
+        Listed::Tasks => TASKS.iter().map(|task| (task.name.to_owned(), task.summary.to_owned())).collect(),
+        Listed::Demonstrations => describe(AssetKind::Demonstration, demonstration),
+    }
+}
+
+fn scenarios(assets: &Assets) -> Vec<(String, String)> {
+    let folder = assets.root().parent().map_or_else(|| PathBuf::from("scenarios"), |project| project.join("scenarios"));
+    let files = stems(&folder, "toml").into_iter().map(|stem| folder.join(format!("{stem}.toml")));
+    let describe = |file: &Path| title(file).unwrap_or_else(|| "(broken: `wield check` tells why)".into());
+    files.map(|file| (file.display().to_string(), describe(&file))).collect()
+}
+
+fn tool(file: &Path) -> String {
+    tool_description(file).unwrap_or_else(|problems| first_line(problems.first()))
+}
+
+fn robot(file: &Path) -> String {
+    let read = || -> Result<robot::Manipulator, String> {
+        let text = std::fs::read_to_string(file).map_err(|error| error.to_string())?;
+        robot::Manipulator::from_urdf_str(&text).map_err(|error| error.to_string())
+    };
+    match read() {
+        Ok(arm) => format!("{} joints, {} frames", arm.joint_count(), arm.frame_names().count()),
+        Err(reason) => format!("(broken: {reason})"),
+    }
+}
+
+fn demonstration(file: &Path) -> String {
+    match std::fs::read_to_string(file) {
+        Ok(text) => format!("{} lines", text.lines().count()),
+        Err(error) => format!("(broken: {error})"),
+    }
+}
+
+fn first_line(problem: Option<&crate::diagnostic::Diagnostic>) -> String {
+    format!("(broken: {})", problem.map_or_else(String::new, |problem| problem.title.clone()))
+}
+
+fn lines(entries: &[(String, String)], indent: &str) -> String {
+    let width = entries.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    entries.iter().map(|(name, text)| format!("{}\n", format!("{indent}{name:width$}  {text}").trim_end())).collect()
+}

@@ -1,0 +1,288 @@
+//! `wield run`: a scenario under one seed or several.
+
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::observe::{self, Destination, Serving};
+use super::progress::{RunProgress, TrialsProgress};
+use super::seed_run::{Failure, Pipeline, RECORDING, run_seed, seed_folder};
+use super::{Exit, assets_for, say, say_aside, say_error, say_problems};
+use crate::files::{prepare_folder, probe, remove_empty, write_whole};
+use crate::report::{json, run_text, trials_text};
+use crate::scenario::{LARGEST_SEED, ResolvedScenario, load, notes};
+use crate::trials::{Status, Trial, TrialsReport};
+
+pub const AFTER_HELP: &str = "\
+Files, in DIR (by default runs/<scenario> in the current folder):
+  seed-<n>/outcome.json    the measures and the verdict; the same run gives the same bytes
+  seed-<n>/scenario.toml   the scenario with every default written out and the seed: run it again as it was
+  seed-<n>/recording.rrd   the recording, for the Rerun viewer
+  trials.json              with --trials: all seeds, the success rate, mean and worst of the judged measures
+
+Examples:
+  wield run scenarios/push_stick.toml
+  wield run scenarios/push_stick.toml --seed 7 --out /tmp/push
+  wield run scenarios/push_stick.toml --trials 50 --min-success 0.9
+  wield run scenarios/push_stick.toml --json --no-record | jq .measures
+
+Exit codes: 0 success, 1 limits missed, 2 bad input (nothing written), 3 crashed or diverged.";
+
+/// Options of `wield run`.
+#[derive(Debug, clap::Args)]
+pub struct RunArguments {
+    /// Scenario file
+    file: PathBuf,
+    /// Seed of the run, or of the first trial [default: the scenario's]
+    #[arg(long, value_name = "N", visible_alias = "first-seed", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
+    seed: Option<u64>,
+    /// Number of trials, with seeds that follow each other
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    trials: u32,
+    /// With several trials: share that must succeed for exit code 0, from 0 to 1
+    #[arg(long, value_name = "SHARE", default_value_t = 1.0, value_parser = share)]
+    min_success: f64,
+    /// Threads for trials; results do not depend on it [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=4096))]
+    threads: Option<u16>,
+    /// Folder for results [default: runs/<scenario>]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Do not record
+    #[arg(long, conflicts_with_all = ["record", "record_all", "connect", "serve", "view"])]
+    no_record: bool,
+    /// Record to this file instead of recording.rrd in the seed's folder
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// With several trials: record each into its seed's folder
+    #[arg(long, conflicts_with = "record")]
+    record_all: bool,
+    /// Stream the recording to a running viewer
+    #[arg(long, value_name = "URL")]
+    connect: Option<String>,
+    /// Serve the recording to viewers on this port
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "9876")]
+    serve: Option<u16>,
+    /// Start a viewer and stream to it
+    #[arg(long)]
+    view: bool,
+    /// Print the result as JSON instead of tables
+    #[arg(long)]
+    json: bool,
+    /// Print nothing but errors
+    #[arg(long, short, conflicts_with = "json")]
+    quiet: bool,
+}
+
+/// Loads the scenario, makes sure that results can be written, runs, reports.
+pub fn execute(arguments: &RunArguments, assets: Option<&Path>, pipeline: Pipeline) -> Exit {
+    let scenario = match load(&arguments.file, &assets_for(assets, Some(&arguments.file))) {
+        Ok(scenario) => scenario,
+        Err(problems) => {
+            say_problems(&problems);
+            return Exit::BadInput;
+        }
+    };
+    let job = match Job::new(arguments, &scenario, pipeline) {
+        Ok(job) => job,
+        Err(reason) => {
+            say_error(&reason);
+            return Exit::BadInput;
+        }
+    };
+    if !arguments.quiet {
+        notes(&scenario).iter().for_each(|note| say_aside(&format!("note: {note}")));
+    }
+    if arguments.trials == 1 { job.run_once() } else { job.run_trials() }
+}
+
+/// What is to be run, after all that could be wrong with it was checked.
+struct Job<'a> {
+    arguments: &'a RunArguments,
+    scenario: &'a ResolvedScenario,
+    pipeline: Pipeline,
+    out: PathBuf,
+    /// Folders that were made for the results.
+    created: Vec<PathBuf>,
+    first_seed: u64,
+}
+
+impl<'a> Job<'a> {
+    fn new(arguments: &'a RunArguments, scenario: &'a ResolvedScenario, pipeline: Pipeline) -> Result<Self, String> {
+        check_recording(arguments)?;
+        let first_seed = arguments.seed.unwrap_or(scenario.scenario.scenario.seed);
+        if first_seed > LARGEST_SEED - u64::from(arguments.trials - 1) {
+            return Err(format!(
+                "--trials {}: the last seed would be above {LARGEST_SEED}; lower --seed",
+                arguments.trials
+            ));
+        }
+        let out = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&scenario.name));
+        let unwritable = |path: &Path, error| {
+            format!("cannot write to {}: {error}; name another place with --out or --record", path.display())
+        };
+        if let Some(file) = &arguments.record {
+            probe(file).map_err(|error| unwritable(file, error))?;
+        }
+        let created = prepare_folder(&out).map_err(|error| unwritable(&out, error))?;
+        Ok(Self { arguments, scenario, pipeline, out, created, first_seed })
+    }
+
+    /// Where the run with `seed` is recorded.
+    fn destination(&self, seed: u64) -> Destination {
+        let RunArguments { no_record, record, record_all, connect, serve, view, trials, .. } = self.arguments;
+        if *no_record || !observe::AVAILABLE || (*trials > 1 && !record_all) {
+            return Destination::default();
+        }
+        let file = record.clone().unwrap_or_else(|| seed_folder(&self.out, seed).join(RECORDING));
+        Destination { file: Some(file), connect: connect.clone(), serve: *serve, view: *view }
+    }
+
+    fn run_once(&self) -> Exit {
+        let (seed, folder) = (self.first_seed, seed_folder(&self.out, self.first_seed));
+        let destination = self.destination(seed);
+        let progress = RunProgress::new(self.arguments.quiet);
+        let show = |stage, share| progress.show(stage, share);
+        let result = run_seed(self.pipeline, self.scenario, seed, &folder, &destination, &show);
+        progress.finish();
+        let finished = match result {
+            Ok(finished) => finished,
+            Err(failure) => return self.fail(seed, &failure),
+        };
+        finished.warnings.iter().for_each(|warning| say_aside(&format!("warning: {warning}")));
+        let written = if self.arguments.json {
+            self.say_json(&finished.report.outcome)
+        } else if self.arguments.quiet {
+            Exit::Success
+        } else {
+            let recording =
+                destination.file.map_or_else(String::new, |file| format!("recording: {}\n", file.display()));
+            say(&format!("{}results: {}\n{recording}", run_text(&finished.report), folder.display()))
+        };
+        if let Some(serving) = &finished.serving {
+            serve_until_enter(serving);
+        }
+        verdict(written, finished.report.outcome.success)
+    }
+
+    fn fail(&self, seed: u64, failure: &Failure) -> Exit {
+        let about = format!("run {} with seed {seed}", self.scenario.name);
+        match failure {
+            Failure::Refused(reason) => {
+                remove_empty(&self.created);
+                say_error(&format!("{about}: {reason} ({})", self.arguments.file.display()));
+                Exit::BadInput
+            }
+            Failure::Crashed(reason) => {
+                say_error(&format!("{about}: {reason}"));
+                Exit::Crashed
+            }
+        }
+    }
+
+    fn run_trials(&self) -> Exit {
+        let seeds = self.first_seed..self.first_seed + u64::from(self.arguments.trials);
+        let progress = TrialsProgress::new(self.arguments.trials as usize, self.arguments.quiet);
+        let trials = || -> Vec<(Trial, Vec<String>)> {
+            let seeds: Vec<u64> = seeds.collect();
+            seeds.into_par_iter().map(|seed| self.trial(seed, &progress)).collect()
+        };
+        let threads = self.arguments.threads.map_or(0, usize::from);
+        let results = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
+            Ok(pool) => pool.install(trials),
+            Err(error) => {
+                say_error(&format!("start threads: {error}; lower --threads"));
+                return Exit::Crashed;
+            }
+        };
+        progress.finish();
+        let (trials, warnings): (Vec<_>, Vec<_>) = results.into_iter().unzip();
+        warnings.iter().flatten().for_each(|warning| say_aside(&format!("warning: {warning}")));
+        self.report_trials(&TrialsReport::new(&self.scenario.name, trials, self.arguments.min_success))
+    }
+
+    fn trial(&self, seed: u64, progress: &TrialsProgress) -> (Trial, Vec<String>) {
+        let folder = seed_folder(&self.out, seed);
+        let result = run_seed(self.pipeline, self.scenario, seed, &folder, &self.destination(seed), &|_, _| {});
+        progress.one_done();
+        match result {
+            Ok(finished) => (Trial::of_outcome(&finished.report.outcome), finished.warnings),
+            Err(Failure::Refused(reason)) => (Trial::without_outcome(seed, Status::Refused, reason), Vec::new()),
+            Err(Failure::Crashed(reason)) => (Trial::without_outcome(seed, Status::Crashed, reason), Vec::new()),
+        }
+    }
+
+    fn report_trials(&self, report: &TrialsReport) -> Exit {
+        if let Some(refused) = report.trials.iter().find(|trial| trial.status == Status::Refused) {
+            return self.fail(refused.seed, &Failure::Refused(refused.reason()));
+        }
+        let file = self.out.join("trials.json");
+        let kept = json(report).map_err(|error| error.to_string());
+        let kept = kept.and_then(|text| write_whole(&file, text.as_bytes()).map_err(|error| error.to_string()));
+        if let Err(reason) = kept {
+            say_error(&format!("write {}: {reason}", file.display()));
+            return Exit::Crashed;
+        }
+        let written = if self.arguments.json {
+            self.say_json(report)
+        } else if self.arguments.quiet {
+            Exit::Success
+        } else {
+            say(&format!("{}results: {}\n", trials_text(report), self.out.display()))
+        };
+        if report.any(Status::Crashed) { Exit::Crashed } else { verdict(written, report.success()) }
+    }
+
+    fn say_json<T: serde::Serialize>(&self, result: &T) -> Exit {
+        match json(result) {
+            Ok(text) => say(&text),
+            Err(error) => {
+                say_error(&format!("write JSON: {error}"));
+                Exit::Crashed
+            }
+        }
+    }
+}
+
+/// Keeps a server up for viewers until Enter is pressed or the input ends.
+fn serve_until_enter(serving: &Serving) {
+    let url = serving.url();
+    say_aside(&format!("the recording is served at {url}: open it with `rerun {url}`; press Enter to end"));
+    let mut line = String::new();
+    // an input that cannot be read has ended
+    let _ = std::io::stdin().read_line(&mut line);
+}
+
+/// The task's verdict, unless it could not be told.
+fn verdict(written: Exit, success: bool) -> Exit {
+    match written {
+        Exit::Success if success => Exit::Success,
+        Exit::Success => Exit::Missed,
+        other => other,
+    }
+}
+
+/// Refuses recordings that this build cannot make, and one file for several trials.
+fn check_recording(arguments: &RunArguments) -> Result<(), String> {
+    let live = arguments.connect.is_some() || arguments.serve.is_some() || arguments.view;
+    if !observe::AVAILABLE && (live || arguments.record.is_some() || arguments.record_all) {
+        return Err("this wield was built without its recorder; build it with the feature `recording`, or leave out \
+                    --record, --record-all, --connect, --serve and --view"
+            .into());
+    }
+    if arguments.trials > 1 && (live || arguments.record.is_some()) {
+        return Err("several trials cannot share one recording; use --record-all, or run one seed".into());
+    }
+    Ok(())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
+        _ => Err("expected a number from 0 to 1".into()),
+    }
+}
+
+#[cfg(test)]
+#[path = "run_tests.rs"]
+mod tests;

@@ -1,0 +1,7 @@
+//! The program `wield`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    scenarios::cli::main().into()
+}

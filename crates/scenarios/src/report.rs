@@ -1,0 +1,238 @@
+//! Reports: tables for people and JSON for programs.
+
+use comfy_table::{CellAlignment, ContentArrangement, Table, presets};
+use serde::Serialize;
+
+use crate::outcome::{Limit, Measure, Outcome};
+use crate::pipeline::Report;
+use crate::trials::{Summary, Trial, TrialsReport};
+
+/// Tables are fitted to terminals of at least this many columns.
+const NARROWEST_TERMINAL: u16 = 60;
+
+/// Writes a result as JSON: indented, its keys in the order of the struct, with a newline at the end.
+///
+/// # Errors
+/// If a number cannot be written; results hold finite numbers only.
+pub fn json<T: Serialize>(result: &T) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(result).map(|text| text + "\n")
+}
+
+/// Describes one run: its measures, failures and notes, and how long it took.
+#[must_use]
+pub fn run_text(report: &Report) -> String {
+    let outcome = &report.outcome;
+    let verdict = if outcome.success { "succeeded" } else { "missed its limits" };
+    let mut text = format!("{} with seed {} {verdict}\n{}\n", outcome.scenario, outcome.seed, measures_table(outcome));
+    for failure in &outcome.failures {
+        text += &format!("failure: {failure}\n");
+    }
+    for note in &outcome.notes {
+        text += &format!("note: {note}\n");
+    }
+    text + &timing_line(report)
+}
+
+/// Describes many runs: a line for each, the success rate with its interval, mean and worst of the judged measures.
+#[must_use]
+pub fn trials_text(report: &TrialsReport) -> String {
+    let [low, high] = report.success_interval_95;
+    let mut text = format!("{}\n", trials_table(report));
+    text += &format!(
+        "{} of {} trials succeeded: {:.1} % (95 % interval {:.1} to {:.1} %, Wilson); wanted at least {} %\n",
+        report.successes,
+        report.trials.len(),
+        100.0 * report.success_rate,
+        100.0 * low,
+        100.0 * high,
+        number(100.0 * report.min_success),
+    );
+    if !report.measures.is_empty() {
+        text += &format!("{}\n", summary_table(&report.measures));
+    }
+    text
+}
+
+/// Four significant digits, without trailing zeros; in powers of ten where it would be long.
+#[must_use]
+pub fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    let magnitude = rounded.abs();
+    if rounded == 0.0 {
+        "0".into()
+    } else if (1e-4..1e7).contains(&magnitude) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// "≤ 5 mm": a limit as people write it.
+fn limit_text(limit: Option<Limit>, unit: &str) -> String {
+    match limit {
+        Some(Limit::AtMost(limit)) => format!("at most {}", with_unit(Some(limit), unit)),
+        Some(Limit::AtLeast(limit)) => format!("at least {}", with_unit(Some(limit), unit)),
+        None => String::new(),
+    }
+}
+
+fn with_unit(value: Option<f64>, unit: &str) -> String {
+    match value {
+        None => "none".into(),
+        Some(value) if unit.is_empty() || unit == "1" => number(value),
+        Some(value) => format!("{} {unit}", number(value)),
+    }
+}
+
+fn mark(passed: Option<bool>) -> &'static str {
+    match passed {
+        Some(true) => "pass",
+        Some(false) => "FAIL",
+        None => "",
+    }
+}
+
+fn table(header: Vec<String>) -> Table {
+    let mut table = Table::new();
+    table.load_preset(presets::ASCII_MARKDOWN).set_header(header);
+    // a terminal that is narrower than this, or does not know its width, breaks lines better than words
+    if table.width().is_some_and(|width| width >= NARROWEST_TERMINAL) {
+        table.set_content_arrangement(ContentArrangement::Dynamic);
+    }
+    table
+}
+
+fn align_right(table: &mut Table, columns: impl IntoIterator<Item = usize>) {
+    for column in columns {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+}
+
+fn measures_table(outcome: &Outcome) -> Table {
+    let mut table = table(["measure", "value", "limit", ""].map(str::to_owned).to_vec());
+    for measure in &outcome.measures {
+        let value = with_unit(measure.value, &measure.unit);
+        let limit = limit_text(measure.limit, &measure.unit);
+        table.add_row([measure.label.clone(), value, limit, mark(measure.passed).to_owned()]);
+    }
+    align_right(&mut table, [1]);
+    table
+}
+
+fn trials_table(report: &TrialsReport) -> Table {
+    let labels = report.measures.iter().map(|measure| match measure.unit.as_str() {
+        "" | "1" => measure.label.clone(),
+        unit => format!("{} ({unit})", measure.label),
+    });
+    let header = ["seed".to_owned(), "result".to_owned()].into_iter().chain(labels).chain(["reason".to_owned()]);
+    let mut table = table(header.collect());
+    for trial in &report.trials {
+        let values =
+            report.measures.iter().map(|summary| value_in(trial, &summary.name).map_or_else(|| "-".into(), number));
+        let row = [trial.seed.to_string(), trial.status.as_str().to_owned()]
+            .into_iter()
+            .chain(values)
+            .chain([trial.reason()]);
+        table.add_row(row);
+    }
+    align_right(&mut table, [0].into_iter().chain(2..2 + report.measures.len()));
+    table
+}
+
+fn value_in(trial: &Trial, name: &str) -> Option<f64> {
+    trial.measures.iter().find(|measure: &&Measure| measure.name == name)?.value
+}
+
+fn summary_table(measures: &[Summary]) -> Table {
+    let mut table = table(["measure", "mean", "worst", "limit", "trials"].map(str::to_owned).to_vec());
+    for measure in measures {
+        table.add_row([
+            measure.label.clone(),
+            with_unit(measure.mean, &measure.unit),
+            with_unit(measure.worst, &measure.unit),
+            limit_text(measure.limit, &measure.unit),
+            measure.count.to_string(),
+        ]);
+    }
+    align_right(&mut table, [1, 2, 4]);
+    table
+}
+
+fn timing_line(report: &Report) -> String {
+    let total: f64 = report.timings_s.iter().map(|(_, seconds)| seconds).sum();
+    let stages = report.timings_s.iter().map(|(stage, seconds)| format!("{stage} {seconds:.2} s"));
+    let stages = stages.collect::<Vec<_>>().join(", ");
+    let simulate = report.timings_s.iter().find(|(stage, _)| *stage == "simulate").map_or(0.0, |(_, seconds)| *seconds);
+    let factor = if simulate > 0.0 {
+        format!(": {} times real time", number((report.simulated_s / simulate * 10.0).round() / 10.0))
+    } else {
+        String::new()
+    };
+    format!("time: {total:.2} s ({stages}); simulated {} s{factor}\n", number(report.simulated_s))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outcome::OUTCOME_SCHEMA;
+
+    fn report() -> Report {
+        let outcome = Outcome {
+            schema: OUTCOME_SCHEMA.into(),
+            scenario: "push".into(),
+            task: "push".into(),
+            seed: 7,
+            version: "0".into(),
+            success: false,
+            failures: vec!["the object rests 6 mm from its goal".into()],
+            measures: vec![
+                Measure::judged("goal_error_mm", "distance to the goal", 6.0, "mm", Limit::AtMost(5.0)),
+                Measure::reported("contacts", "contact changes", None, "1"),
+            ],
+            notes: vec!["a note".into()],
+            trajectory_digest: "00".into(),
+        };
+        Report { outcome, timings_s: vec![("plan", 0.5), ("simulate", 2.0)], simulated_s: 20.0 }
+    }
+
+    #[test]
+    fn a_run_is_told_in_full() {
+        let text = run_text(&report());
+        for part in [
+            "push with seed 7 missed its limits",
+            "| distance to the goal | 6 mm  | at most 5 mm | FAIL |",
+            "none",
+            "failure: the object rests 6 mm from its goal",
+            "note: a note",
+            "time: 2.50 s (plan 0.50 s, simulate 2.00 s); simulated 20 s: 10 times real time",
+        ] {
+            let squeezed = text.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(squeezed.contains(&part.split_whitespace().collect::<Vec<_>>().join(" ")), "{part}\n{text}");
+        }
+    }
+
+    #[test]
+    fn numbers_keep_four_digits() {
+        let expect = [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (5.0, "5"),
+            (1.23456, "1.235"),
+            (123456.0, "123500"),
+            (1e-9, "1e-9"),
+            (-2.5, "-2.5"),
+        ];
+        for (value, expected) in expect {
+            assert_eq!(number(value), expected);
+        }
+    }
+
+    #[test]
+    fn json_keeps_the_order_of_the_struct_and_ends_in_a_newline() {
+        let text = json(&report().outcome).unwrap();
+        assert!(text.ends_with("}\n"));
+        assert!(text.find("\"schema\"") < text.find("\"seed\"") && text.find("\"seed\"") < text.find("\"measures\""));
+    }
+}

@@ -1,0 +1,118 @@
+//! Tests of loading that need no program: the shipped scenario, its round trip, random damage.
+
+use std::fs;
+use std::path::PathBuf;
+
+use proptest::prelude::*;
+
+use super::*;
+
+fn project() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+fn assets() -> Assets {
+    Assets::at(project().join("assets"))
+}
+
+fn shipped() -> String {
+    fs::read_to_string(project().join("scenarios/push_stick.toml")).unwrap()
+}
+
+fn problems(text: &str) -> Vec<Diagnostic> {
+    let source = Source { file: "push.toml".into(), text: text.into() };
+    resolve(&source, &assets()).err().unwrap_or_default()
+}
+
+/// The shipped scenario with one part of its text replaced.
+fn changed(from: &str, to: &str) -> String {
+    let text = shipped();
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    text.replace(from, to)
+}
+
+#[test]
+fn the_shipped_scenario_loads() {
+    let loaded = load(&project().join("scenarios/push_stick.toml"), &assets()).unwrap();
+    assert_eq!(loaded.name, "push_stick");
+    assert_eq!(loaded.arm.joint_count(), 3);
+    assert_eq!(loaded.tool, loaded.demonstration_tool);
+    assert_eq!(notes(&loaded), Vec::<String>::new());
+}
+
+#[test]
+fn a_scenario_written_with_all_defaults_loads_to_the_same() {
+    let loaded = load(&project().join("scenarios/push_stick.toml"), &assets()).unwrap();
+    let text = toml::to_string(&loaded.scenario).unwrap();
+    let source = Source { file: "again.toml".into(), text: text.as_str().into() };
+    let again = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
+    assert_eq!(again.scenario, loaded.scenario);
+    assert!(text.contains("time_step_s"), "defaults are written out");
+}
+
+#[test]
+fn problems_of_unlike_parts_are_listed_together() {
+    let text = changed("mass_kg = 0.0054", "mass_kg = -1.0").replace("asset = \"stick\"", "asset = \"stik\"");
+    let text = text.replace("tool_frame = \"flange\"", "tool_frame = \"flansch\"").replace("count = 5", "count = 0");
+    let found: Vec<String> = problems(&text).iter().map(|problem| problem.title.clone()).collect();
+    let expected = [
+        "bad value for `mass_kg` in [object]",
+        "unknown tool in `asset` in [tool]",
+        "unknown frame in `tool_frame` in [robot]",
+        "bad value for `count` in [demonstrations.synthetic]",
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_box_too_large_for_the_map_is_told_so() {
+    let text = changed("shape.disc = { radius_m = 0.012 }", "shape.box = { width_m = 0.5, height_m = 0.01 }");
+    let found = problems(&text);
+    assert!(found.iter().all(|problem| problem.expected == "an object smaller than the map"), "{found:?}");
+}
+
+#[test]
+fn the_object_may_touch_the_border_but_not_cross_it() {
+    // disc of radius 12 mm, border at -90 mm
+    assert!(problems(&changed("goal_m = [-0.055, 0.125]", "goal_m = [-0.077, 0.125]")).is_empty());
+    let found = problems(&changed("goal_m = [-0.055, 0.125]", "goal_m = [-0.079, 0.125]"));
+    assert!(found[0].to_string().contains("reaches 0.0010 m beyond the map"), "{}", found[0]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever stands in the file, loading ends in a scenario or in problems that can be printed.
+    #[test]
+    fn random_damage_never_panics(damage in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..20, ".{0,6}"), 1..6)) {
+        let mut text: Vec<char> = shipped().chars().collect();
+        for (place, removed, inserted) in damage {
+            let start = place.index(text.len());
+            let end = (start + removed).min(text.len());
+            text.splice(start..end, inserted.chars());
+            if text.is_empty() {
+                break;
+            }
+        }
+        for problem in problems(&text.into_iter().collect::<String>()) {
+            prop_assert!(!problem.render(false).is_empty() && !problem.render(true).is_empty());
+            prop_assert!(!problem.to_string().is_empty());
+        }
+    }
+
+    /// Swapping values between keys finds other paths through the checks than damage to single letters.
+    #[test]
+    fn swapped_values_never_panic(pairs in prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>()), 1..4)) {
+        let mut lines: Vec<String> = shipped().lines().map(str::to_owned).collect();
+        for (first, second) in pairs {
+            let (first, second) = (first.index(lines.len()), second.index(lines.len()));
+            let (Some((key, _)), Some((_, value))) = (lines[first].split_once('='), lines[second].split_once('=')) else {
+                continue;
+            };
+            lines[first] = format!("{key}={value}");
+        }
+        for problem in problems(&lines.join("\n")) {
+            prop_assert!(!problem.render(false).is_empty());
+        }
+    }
+}

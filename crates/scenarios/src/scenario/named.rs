@@ -1,0 +1,143 @@
+//! What a scenario names: tools, arm and recorded demonstrations, read from the assets and checked.
+
+use std::path::Path;
+
+use robot::Manipulator;
+use skills::field::FieldError;
+use skills::tool::Tool;
+
+use super::document::path;
+use super::draft::{Draft, read};
+use super::explain::{Context, bad_value, key_name};
+use super::source::Source;
+use crate::assets::{AssetError, AssetKind, Assets};
+use crate::diagnostic::Diagnostic;
+use crate::suggest::{did_you_mean, listed};
+
+/// A tool file that shows how keys are written.
+pub(crate) fn example_tool() -> Source {
+    let text = include_str!("../../../../assets/tools/stick.toml");
+    Source { file: "assets/tools/stick.toml".into(), text: text.into() }
+}
+
+/// Reads the assets that a scenario names, collecting what is wrong with them.
+pub(crate) struct Reader<'a> {
+    /// Where they are found.
+    pub assets: &'a Assets,
+    /// The scenario.
+    pub context: Context<'a>,
+    /// What is wrong.
+    pub problems: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    /// Reads the tool `name` that the key at `key` asks for.
+    pub fn tool(&mut self, key: &str, name: &str) -> Option<Tool> {
+        let source = self.source(AssetKind::Tool, key, name)?;
+        let result = read_tool(&source);
+        self.keep(key, result)
+    }
+
+    /// Reads the arm `name` that the key at `key` asks for.
+    pub fn arm(&mut self, key: &str, name: &str) -> Option<Manipulator> {
+        let source = self.source(AssetKind::Robot, key, name)?;
+        let result =
+            Manipulator::from_urdf_str(&source.text).map_err(|error| vec![urdf_problem(&source, &error.to_string())]);
+        self.keep(key, result)
+    }
+
+    /// Reads the text of the demonstration `name` that the key at `key` asks for.
+    pub fn demonstration(&mut self, key: &str, name: &str) -> Option<(String, String)> {
+        let source = self.source(AssetKind::Demonstration, key, name)?;
+        let file_name = source.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let result = if source.text.trim().is_empty() {
+            Err(vec![Diagnostic::of_file(&source.file, "the file is empty").expected("a recorded demonstration")])
+        } else {
+            Ok((file_name, source.text.to_string()))
+        };
+        self.keep(key, result)
+    }
+
+    /// Keeps a value, or its problems with a remark on who asked for the file.
+    fn keep<T>(&mut self, key: &str, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
+        let asked = self.context.problem_at_value(&path(key), "").place;
+        let line = asked.map_or(0, |place| place.line);
+        let remark = format!("{key} in {}:{line} names this file", self.context.source.file.display());
+        result
+            .map_err(|problems| {
+                self.problems.extend(problems.into_iter().map(|problem| problem.help([remark.clone()])))
+            })
+            .ok()
+    }
+
+    fn source(&mut self, kind: AssetKind, key: &str, name: &str) -> Option<Source> {
+        let result = self.assets.path(kind, name).map_err(|error| Box::new(self.refused(kind, key, name, error)));
+        let result = result.and_then(|file| Source::read(&file));
+        result.map_err(|problem| self.problems.push(*problem)).ok()
+    }
+
+    fn refused(&self, kind: AssetKind, key: &str, name: &str, error: AssetError) -> Diagnostic {
+        let path = path(key);
+        let problem = |title: String| self.context.problem_at_value(&path, title).found(format!("{name:?}"));
+        let folder = self.assets.root().join(kind.folder());
+        match error {
+            AssetError::Escapes => problem(format!("path escaping the project in {}", key_name(&path)))
+                .expected(format!("the bare name of a file in {}", folder.display()))
+                .help([format!("copy the file into that folder and name it without folder and .{}", kind.extension())]),
+            AssetError::Unknown { known, .. } if known.is_empty() => {
+                problem(format!("unknown {} in {}", kind.noun(), key_name(&path)))
+                    .expected(format!("a .{} file in {}, but there is none", kind.extension(), folder.display()))
+                    .help(["name the folder of assets with --assets DIR or the variable WIELD_ASSETS".to_owned()])
+            }
+            AssetError::Unknown { known, .. } => problem(format!("unknown {} in {}", kind.noun(), key_name(&path)))
+                .expected(format!("one of {}", listed(&known)))
+                .help(did_you_mean(name, &known)),
+            AssetError::Unreadable { path: file, source } => {
+                Diagnostic::of_file(&file, "the file cannot be read").found(source.to_string())
+            }
+        }
+    }
+}
+
+/// Reads and checks a tool file.
+pub(crate) fn read_tool(source: &Source) -> Result<Tool, Vec<Diagnostic>> {
+    let example = example_tool();
+    let Draft { value, tree, mut problems } = read::<Tool>(source, &example);
+    let (Some(tool), Some(tree)) = (value, tree) else { return Err(problems) };
+    if let Err(error) = tool.validate() {
+        problems.push(field_problem(Context { source, tree: &tree, example: &example }, error));
+    }
+    if problems.is_empty() { Ok(tool) } else { Err(problems) }
+}
+
+/// Title line of a tool file, for lists.
+pub(crate) fn tool_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
+    let source = Source::read(file).map_err(|problem| vec![*problem])?;
+    read_tool(&source).map(|tool| tool.description)
+}
+
+/// A refused value of a checked struct, at its place.
+pub(crate) fn field_problem(context: Context<'_>, error: FieldError) -> Diagnostic {
+    let path = path(&error.field);
+    context.problem_at_value(&path, bad_value(&path)).found(error.found).expected(error.expected)
+}
+
+/// A refused robot description, at the line of the element that it names.
+fn urdf_problem(source: &Source, reason: &str) -> Diagnostic {
+    let named = reason.split('`').skip(1).step_by(2).find_map(|name| {
+        let start = source.text.find(&format!("name=\"{name}\""))?;
+        Some(start..start + name.len() + "name=\"\"".len())
+    });
+    let span = named.or_else(|| xml_place(source, reason)).unwrap_or(0..0);
+    source.problem(span, "the robot cannot be used").found(reason.strip_prefix("read urdf: ").unwrap_or(reason))
+}
+
+/// Byte of the first "line:column" in the words of an XML parser.
+fn xml_place(source: &Source, reason: &str) -> Option<std::ops::Range<usize>> {
+    let numbers = reason.split(|letter: char| !letter.is_ascii_digit() && letter != ':');
+    let (line, column) = numbers.filter_map(|word| word.trim_matches(':').split_once(':')).next()?;
+    let (line, column): (usize, usize) = (line.parse().ok()?, column.parse().ok()?);
+    let line_start: usize = source.text.split_inclusive('\n').take(line.checked_sub(1)?).map(str::len).sum();
+    let start = line_start + column.saturating_sub(1);
+    Some(start..start + 1)
+}

@@ -1,0 +1,121 @@
+//! Tasks: what is to be done, and how well it was done. A task is one file (or folder) and its lines here.
+
+mod push;
+
+use serde::{Deserialize, Serialize};
+use sim::planar::Observer;
+use skills::field::FieldError;
+
+pub use push::PushConfig;
+
+use crate::outcome::Outcome;
+use crate::pipeline::{Progress, Report, RunError, run_task};
+use crate::scenario::ResolvedScenario;
+
+/// The five verbs of a task; each is a function of what stands before it, the scenario and its seed.
+pub trait Task {
+    /// What the demonstrations gave.
+    type Shown;
+    /// What was learnt from them.
+    type Skills;
+    /// What is to be carried out.
+    type Plan;
+    /// What happened.
+    type Episode;
+
+    /// Records or loads demonstrations.
+    ///
+    /// # Errors
+    /// A [`StageError`].
+    fn demonstrations(&self, progress: Progress<'_>) -> Result<Self::Shown, StageError>;
+
+    /// Learns skills from them.
+    ///
+    /// # Errors
+    /// A [`StageError`].
+    fn learn(&self, shown: &Self::Shown) -> Result<Self::Skills, StageError>;
+
+    /// Plans the task with the skills, and checks that the arm can carry the plan out.
+    ///
+    /// # Errors
+    /// A [`StageError`].
+    fn plan(&self, skills: &Self::Skills) -> Result<Self::Plan, StageError>;
+
+    /// Builds the scene and carries the plan out in it.
+    ///
+    /// # Errors
+    /// A [`StageError`].
+    fn simulate(&self, plan: &Self::Plan, observer: &mut dyn Observer) -> Result<Self::Episode, StageError>;
+
+    /// Judges what happened; sees no physics.
+    fn judge(&self, shown: &Self::Shown, skills: &Self::Skills, plan: &Self::Plan, episode: &Self::Episode) -> Outcome;
+
+    /// Simulated time of an episode, s.
+    fn simulated_s(episode: &Self::Episode) -> f64;
+}
+
+/// Why a stage of a run did not get to its end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StageError {
+    /// The task cannot be done as the scenario states it: an outcome, not a crash.
+    Infeasible(String),
+    /// The scenario asks for something that makes no sense, found only with the arm in place.
+    Input(String),
+    /// The program or the physics broke down.
+    Broken(String),
+}
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum TaskConfig {
+    /// Push an object over a table to a goal.
+    Push(PushConfig),
+}
+
+/// A kind of task, as `wield list tasks` shows it.
+#[derive(Clone, Copy, Debug)]
+pub struct TaskKind {
+    /// Name: the key of its table in a scenario.
+    pub name: &'static str,
+    /// One line about it.
+    pub summary: &'static str,
+}
+
+/// All kinds of tasks.
+pub const TASKS: &[TaskKind] =
+    &[TaskKind { name: "push", summary: "push an object over a table to a goal, past obstacles, with a tool" }];
+
+/// Runs a scenario with its task.
+pub(crate) fn dispatch(
+    scenario: &ResolvedScenario,
+    seed: u64,
+    observer: &mut dyn Observer,
+    progress: Progress<'_>,
+) -> Result<Report, RunError> {
+    match &scenario.scenario.task {
+        TaskConfig::Push(config) => {
+            run_task(&push::PushTask::new(scenario, config, seed), scenario, seed, observer, progress)
+        }
+    }
+}
+
+impl TaskConfig {
+    /// The kind's name: the key of its table in a scenario.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Push(_) => "push",
+        }
+    }
+
+    /// Checks the task's numbers on their own.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        match self {
+            Self::Push(push) => push.validate().map_err(|error| error.within("push")),
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! What a pushing scenario states about its task.
+
+use serde::{Deserialize, Serialize};
+use skills::field::{FieldError, finite, positive};
+use skills::tool_use::Orientation;
+
+/// What is to be pushed where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PushConfig {
+    /// Where the object starts, world frame, m.
+    pub start_m: [f64; 2],
+    /// Orientation of the object at the start, rad.
+    #[serde(default)]
+    pub start_angle_rad: f64,
+    /// Where the object is wanted, world frame, m.
+    pub goal_m: [f64; 2],
+    /// Where the tool waits before, world frame, m.
+    pub home_m: [f64; 2],
+    /// Where the tool is put afterwards, world frame, m; back home if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub park_m: Option<[f64; 2]>,
+    /// How the tool is turned.
+    #[serde(default)]
+    pub orientation: Orientation,
+    /// Speed of a push, m/s.
+    #[serde(default = "default_push_speed")]
+    pub push_speed_m_per_s: f64,
+    /// Speed of the tool through free space, m/s.
+    #[serde(default = "default_free_speed")]
+    pub free_speed_m_per_s: f64,
+    /// Time that the object is given to rest after the last contact, s.
+    #[serde(default = "default_settle")]
+    pub settle_s: f64,
+}
+
+fn default_push_speed() -> f64 {
+    0.020
+}
+
+fn default_free_speed() -> f64 {
+    0.060
+}
+
+fn default_settle() -> f64 {
+    0.3
+}
+
+impl PushConfig {
+    /// Where the tool is put afterwards, world frame, m.
+    #[must_use]
+    pub fn park_m(&self) -> [f64; 2] {
+        self.park_m.unwrap_or(self.home_m)
+    }
+
+    /// Checks the numbers on their own.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        finite("start_m", &self.start_m)?;
+        finite("start_angle_rad", &[self.start_angle_rad])?;
+        finite("goal_m", &self.goal_m)?;
+        finite("home_m", &self.home_m)?;
+        finite("park_m", &self.park_m())?;
+        positive("push_speed_m_per_s", self.push_speed_m_per_s)?;
+        positive("free_speed_m_per_s", self.free_speed_m_per_s)?;
+        positive("settle_s", self.settle_s)
+    }
+}

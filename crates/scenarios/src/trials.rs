@@ -1,0 +1,244 @@
+//! Trials: the same scenario under several seeds, and what they say together.
+
+use serde::{Deserialize, Serialize};
+
+use crate::outcome::{Limit, Measure, Outcome};
+
+/// Version of the layout of `trials.json`.
+pub const TRIALS_SCHEMA: &str = "wield.trials/1";
+
+/// Normal quantile of a two-sided 95 % interval.
+const QUANTILE_95: f64 = 1.959_963_984_540_054;
+
+/// Result of several trials, as written to `trials.json`. Holds no clock time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TrialsReport {
+    /// Version of this layout: [`TRIALS_SCHEMA`].
+    pub schema: String,
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Version of the program.
+    pub version: String,
+    /// Number of trials that kept all limits.
+    pub successes: usize,
+    /// Share of trials that kept all limits, 0 to 1.
+    pub success_rate: f64,
+    /// Wilson's 95 % interval of the success rate.
+    pub success_interval_95: [f64; 2],
+    /// Share of successful trials that was asked for.
+    pub min_success: f64,
+    /// Mean and worst of each judged measure.
+    pub measures: Vec<Summary>,
+    /// The trials, by seed.
+    pub trials: Vec<Trial>,
+}
+
+/// One trial.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Trial {
+    /// Its seed.
+    pub seed: u64,
+    /// How it ended.
+    pub status: Status,
+    /// The judged measures; empty without an outcome.
+    pub measures: Vec<Measure>,
+    /// What went wrong, one sentence per failure; empty on success.
+    pub failures: Vec<String>,
+    /// Digest of the state trajectory; `null` without an outcome.
+    pub trajectory_digest: Option<String>,
+}
+
+/// How a trial ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Every limit was kept.
+    Success,
+    /// A limit was missed.
+    Missed,
+    /// The run crashed or diverged.
+    Crashed,
+    /// The scenario makes no sense with this seed.
+    Refused,
+}
+
+impl Status {
+    /// The word in tables and files.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Success => "success",
+            Self::Missed => "missed",
+            Self::Crashed => "crashed",
+            Self::Refused => "refused",
+        }
+    }
+}
+
+/// A judged measure over all trials that have it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Name of the measure.
+    pub name: String,
+    /// What it tells.
+    pub label: String,
+    /// Unit for people.
+    pub unit: String,
+    /// The limit.
+    pub limit: Option<Limit>,
+    /// Mean; `null` if no trial has a value.
+    pub mean: Option<f64>,
+    /// The value farthest to the bad side of the limit.
+    pub worst: Option<f64>,
+    /// Number of trials that have a value.
+    pub count: usize,
+}
+
+impl Trial {
+    /// A trial that came to an outcome.
+    #[must_use]
+    pub fn of_outcome(outcome: &Outcome) -> Self {
+        Self {
+            seed: outcome.seed,
+            status: if outcome.success { Status::Success } else { Status::Missed },
+            measures: outcome.measures.iter().filter(|measure| measure.limit.is_some()).cloned().collect(),
+            failures: outcome.failures.clone(),
+            trajectory_digest: Some(outcome.trajectory_digest.clone()),
+        }
+    }
+
+    /// A trial that came to no outcome.
+    #[must_use]
+    pub fn without_outcome(seed: u64, status: Status, reason: String) -> Self {
+        Self { seed, status, measures: Vec::new(), failures: vec![reason], trajectory_digest: None }
+    }
+
+    /// The first failure, and how many more there are.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self.failures.as_slice() {
+            [] => String::new(),
+            [one] => one.clone(),
+            [first, rest @ ..] => format!("{first} (and {} more)", rest.len()),
+        }
+    }
+}
+
+impl TrialsReport {
+    /// Sums up trials.
+    #[must_use]
+    pub fn new(scenario: &str, trials: Vec<Trial>, min_success: f64) -> Self {
+        let successes = trials.iter().filter(|trial| trial.status == Status::Success).count();
+        Self {
+            schema: TRIALS_SCHEMA.into(),
+            scenario: scenario.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            successes,
+            success_rate: if trials.is_empty() { 0.0 } else { successes as f64 / trials.len() as f64 },
+            success_interval_95: wilson(successes, trials.len()),
+            min_success,
+            measures: summaries(&trials),
+            trials,
+        }
+    }
+
+    /// Whether any trial ended like this.
+    #[must_use]
+    pub fn any(&self, status: Status) -> bool {
+        self.trials.iter().any(|trial| trial.status == status)
+    }
+
+    /// Whether the share of successful trials reaches what was asked for.
+    #[must_use]
+    pub fn success(&self) -> bool {
+        self.success_rate >= self.min_success
+    }
+}
+
+/// Wilson's 95 % interval of a share of `successes` in `count` (Wilson 1927); the whole range if `count` is zero.
+#[must_use]
+pub fn wilson(successes: usize, count: usize) -> [f64; 2] {
+    if count == 0 {
+        return [0.0, 1.0];
+    }
+    let n = count as f64;
+    let share = successes as f64 / n;
+    let z2 = QUANTILE_95 * QUANTILE_95;
+    let center = share + z2 / (2.0 * n);
+    let half = QUANTILE_95 * (share * (1.0 - share) / n + z2 / (4.0 * n * n)).sqrt();
+    let scale = 1.0 + z2 / n;
+    // a share of exactly 0 or 1 leaves its bound at 0 or 1 but for rounding
+    let low = if successes == 0 { 0.0 } else { (center - half) / scale };
+    let high = if successes == count { 1.0 } else { (center + half) / scale };
+    [low, high]
+}
+
+fn summaries(trials: &[Trial]) -> Vec<Summary> {
+    let mut known: Vec<&Measure> = Vec::new();
+    for measure in trials.iter().flat_map(|trial| &trial.measures) {
+        if known.iter().all(|other| other.name != measure.name) {
+            known.push(measure);
+        }
+    }
+    known.into_iter().map(|measure| summary(measure, trials)).collect()
+}
+
+fn summary(measure: &Measure, trials: &[Trial]) -> Summary {
+    let same = trials.iter().flat_map(|trial| &trial.measures).filter(|other| other.name == measure.name);
+    let values: Vec<f64> = same.filter_map(|other| other.value).collect();
+    let worst = match measure.limit {
+        Some(Limit::AtLeast(_)) => values.iter().copied().reduce(f64::min),
+        _ => values.iter().copied().reduce(f64::max),
+    };
+    Summary {
+        name: measure.name.clone(),
+        label: measure.label.clone(),
+        unit: measure.unit.clone(),
+        limit: measure.limit,
+        mean: (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64),
+        worst,
+        count: values.len(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Printed values have four digits.
+    const PRINTED: f64 = 5e-5;
+
+    #[test]
+    fn wilson_agrees_with_published_values() {
+        // Newcombe 1998, Table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29
+        let expect =
+            [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)];
+        for (successes, count, low, high) in expect {
+            let found = wilson(successes, count);
+            assert!((found[0] - low).abs() < PRINTED && (found[1] - high).abs() < PRINTED, "{found:?}");
+        }
+        assert_eq!(wilson(4, 4)[1], 1.0);
+        assert_eq!(wilson(0, 0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn the_worst_lies_on_the_bad_side() {
+        let trial = |seed, error, clearance| Trial {
+            seed,
+            status: Status::Success,
+            measures: vec![
+                Measure::judged("error", "error", error, "mm", Limit::AtMost(5.0)),
+                Measure::judged("clearance", "clearance", clearance, "mm", Limit::AtLeast(0.0)),
+            ],
+            failures: vec![],
+            trajectory_digest: None,
+        };
+        let trials =
+            vec![trial(1, 1.0, 3.0), trial(2, 3.0, 1.0), Trial::without_outcome(3, Status::Crashed, "boom".into())];
+        let report = TrialsReport::new("push", trials, 0.5);
+        let found: Vec<_> =
+            report.measures.iter().map(|measure| (measure.mean, measure.worst, measure.count)).collect();
+        assert_eq!(found, [(Some(2.0), Some(3.0), 2), (Some(2.0), Some(1.0), 2)]);
+        assert!(report.any(Status::Crashed) && report.success());
+    }
+}
