@@ -16,7 +16,7 @@ pub struct Demonstration {
     pub object: Trajectory,
 }
 
-/// A demonstration on one uniform clock, the object's path freed of the camera's noise.
+/// A demonstration on one uniform clock, freed of the camera's noise and the hand's tremor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Aligned {
     /// Time between rows, s.
@@ -29,7 +29,7 @@ pub struct Aligned {
 
 /// Rows per second after alignment: above the tool's recording, five times above what a hand does on purpose.
 const ALIGNED_RATE_HZ: f64 = 100.0;
-/// Standard deviation of the Gaussian that smooths the object's path, s: keeps motions below 1.5 Hz.
+/// Standard deviation of the Gaussian that smooths both paths, s: keeps motions below 1.5 Hz, which are the voluntary ones.
 const SMOOTHING_S: f64 = 0.10;
 
 impl Demonstration {
@@ -68,7 +68,14 @@ impl Demonstration {
         let tool = (0..rows).map(|row| self.tool.at(time(row))).map(|p| Isometry2::new(Vector2::new(p[0], p[1]), p[2]));
         let raw: Vec<Point2<f64>> =
             (0..rows).map(|row| self.object.at(time(row))).map(|p| Point2::new(p[0], p[1])).collect();
-        Aligned { time_step_s, tool: tool.collect(), object: smoothed(&raw, SMOOTHING_S / time_step_s) }
+        let tool: Vec<Isometry2<f64>> = tool.collect();
+        let rows = SMOOTHING_S / time_step_s;
+        let places: Vec<Point2<f64>> = tool.iter().map(|pose| Point2::from(pose.translation.vector)).collect();
+        let steady = tool
+            .iter()
+            .zip(smoothed(&places, rows))
+            .map(|(pose, place)| Isometry2::from_parts(place.into(), pose.rotation));
+        Aligned { time_step_s, tool: steady.collect(), object: smoothed(&raw, rows) }
     }
 }
 

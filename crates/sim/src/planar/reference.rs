@@ -82,6 +82,8 @@ pub struct ClosedLoop<'a> {
     /// What it is shifted by because the object rests elsewhere than planned.
     object_shift: Vector2<f64>,
     steering: Option<(Push, Steering, Unit<Vector2<f64>>)>,
+    /// Time of the plan's action at which the object should be where it is.
+    plan_clock_s: f64,
     finished: bool,
 }
 
@@ -96,10 +98,8 @@ pub struct ClosedLoopConfig {
     pub patience: f64,
 }
 
-/// The tool slows down over this distance before the end of a push, m; the object coasts less than a tenth of it.
-const SLOW_DOWN_M: f64 = 0.004;
-/// Slowest speed of a push before it ends, as a share of its speed.
-const SLOWEST_SHARE: f64 = 0.2;
+/// Slowest speed of a push before it ends, as a share of its mean: what starts and ends at rest must still get there.
+const SLOWEST_SHARE: f64 = 0.25;
 /// A push ends this far before its line's end, m: what the object still moves while the tool stops.
 const STOP_EARLY_M: f64 = 0.0002;
 
@@ -133,6 +133,7 @@ impl<'a> ClosedLoop<'a> {
             start_shift: Vector2::zeros(),
             object_shift: Vector2::zeros(),
             steering: None,
+            plan_clock_s: 0.0,
             finished: false,
         }
     }
@@ -150,6 +151,7 @@ impl<'a> ClosedLoop<'a> {
         };
         self.phase = phase;
         self.begun_s = time_s;
+        self.plan_clock_s = 0.0;
         self.start_shift = self.now.position.xy() - action.tool.start().position.xy();
         self.object_shift = self.shift_for(action);
         self.steering = match action.kind {
@@ -219,8 +221,15 @@ impl<'a> ClosedLoop<'a> {
         let object = self.tracker.object_world();
         let left_m = (push.to_world - object).dot(direction) - STOP_EARLY_M;
         let planned = action.tool.duration_s().max(self.period_s);
-        let speed = (push.to_world - push.from_world).norm() / planned;
-        let speed = speed * (left_m / SLOW_DOWN_M).clamp(SLOWEST_SHARE, 1.0);
+        // the plan's own time law, read where the object is along its line
+        let progress = |clock_s: f64| (action.object.at(clock_s).point() - push.from_world).dot(direction);
+        let reached = (object - push.from_world).dot(direction);
+        while self.plan_clock_s < planned && progress(self.plan_clock_s) < reached {
+            self.plan_clock_s += self.period_s;
+        }
+        let usual = (push.to_world - push.from_world).norm() / planned;
+        let planned_speed = action.object.at(self.plan_clock_s).velocity.xy().dot(direction);
+        let speed = planned_speed.max(usual * SLOWEST_SHARE);
         let command = steering.command(&(pose * middle.point), &normal, &object, speed);
         let done = left_m <= 0.0 || local_s > planned * self.config.patience;
         self.approach_velocity(if done { Vector2::zeros() } else { command.velocity_world }, action, local_s);
@@ -267,7 +276,8 @@ impl ReferenceSource for ClosedLoop<'_> {
                 self.begin(self.phase + 1, time_s);
             }
         }
-        let expected = plan.actions().get(self.phase).map(|action| action.object.at(local_s)).unwrap_or_default();
+        let due_s = if self.steering.is_some() { self.plan_clock_s } else { time_s - self.begun_s };
+        let expected = plan.actions().get(self.phase).map(|action| action.object.at(due_s)).unwrap_or_default();
         if self.finished {
             self.now = PlanarMotion::at_rest(self.now.position);
         }

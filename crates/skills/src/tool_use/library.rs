@@ -7,6 +7,7 @@ use crate::error::SkillError;
 use crate::outline::Outline;
 use crate::primitive::{MovementPrimitive, PrimitiveConfig};
 use crate::segmentation::{PushFragment, pushes};
+use crate::time_law::minimum_jerk;
 use crate::tool::Tool;
 
 /// How an object moves under one contact surface.
@@ -128,10 +129,33 @@ fn learn_flip(primitive: &PrimitiveConfig, shown: &[Shown<'_>], index: usize) ->
         let Some((tool, object)) = aligned.tool.get(rows.clone()).zip(aligned.object.get(rows)) else { continue };
         let rest = object.iter().map(|point| point.coords).sum::<Vector2<f64>>() / object.len().max(1) as f64;
         let relative: Vec<_> = tool.iter().map(|pose| Point2::from(pose.translation.vector - rest)).collect();
-        paths.push(path(&relative, aligned.time_step_s)?);
+        paths.push(path(&retimed(&relative), aligned.time_step_s)?);
     }
     let length_m = paths.iter().map(|path| path.path_length()).sum::<f64>() / paths.len().max(1) as f64;
     Ok(ToolFlippingSkill { primitive: primitive.learn(&paths)?, length_m })
+}
+
+/// Rows of a retimed way.
+const RETIMED_ROWS: usize = 200;
+
+/// The way of a hand without its pauses: the same places, passed with the minimum-jerk time law of one free movement.
+///
+/// Demonstrations wait at different times for different reasons; only once aligned do they show the same way.
+fn retimed(way: &[Point2<f64>]) -> Vec<Point2<f64>> {
+    let mut length_m = 0.0;
+    let mut marks: Vec<(f64, Point2<f64>)> = Vec::with_capacity(way.len());
+    for point in way {
+        length_m += marks.last().map_or(0.0, |(_, last)| (point - last).norm());
+        marks.push((length_m, *point));
+    }
+    let at = |along: f64| -> Option<Point2<f64>> {
+        let next = marks.partition_point(|(mark, _)| *mark < along).clamp(1, marks.len().saturating_sub(1).max(1));
+        let ((from, a), (to, b)) = marks.get(next - 1).zip(marks.get(next))?;
+        let share = if to > from { ((along - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
+        Some(a + (b - a) * share)
+    };
+    let place = |row: usize| at(length_m * minimum_jerk(row as f64 / (RETIMED_ROWS - 1) as f64));
+    (0..RETIMED_ROWS).filter_map(place).collect()
 }
 
 fn most_common(sequences: &[Vec<usize>]) -> Option<Vec<usize>> {
