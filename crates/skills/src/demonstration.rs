@@ -1,5 +1,7 @@
 //! One human run of a task: where the tool was and where the object was seen, each on its own clock's ticks.
 
+use std::f64::consts::TAU;
+
 use nalgebra::{DMatrix, Isometry2, Point2, Vector2};
 
 use crate::error::SkillError;
@@ -32,11 +34,15 @@ const ALIGNED_RATE_HZ: f64 = 100.0;
 /// Standard deviation of the Gaussian that smooths both paths, s: keeps motions below 1.5 Hz, which are the voluntary ones.
 const SMOOTHING_S: f64 = 0.10;
 
+/// Longest time over which a recording is continued by a straight line, s: a hand may turn round within more.
+const LARGEST_GAP_S: f64 = 1.0;
+
 impl Demonstration {
-    /// Checks that both trajectories have the columns x, y, angle and overlap in time.
+    /// Checks that both trajectories have the columns x, y, angle and overlap in time without large gaps; angles are
+    /// continued across ±π.
     ///
     /// # Errors
-    /// [`SkillError::Dimension`] or [`SkillError::RowCount`].
+    /// [`SkillError::Dimension`], [`SkillError::RowCount`], or [`SkillError::InvalidArgument`] for a gap.
     pub fn new(name: impl Into<String>, tool: Trajectory, object: Trajectory) -> Result<Self, SkillError> {
         const OPERATION: &str = "read demonstration";
         for trajectory in [&tool, &object] {
@@ -44,13 +50,34 @@ impl Demonstration {
                 return Err(SkillError::Dimension { operation: OPERATION, found: trajectory.dimension(), expected: 3 });
             }
         }
-        let demonstration = Self { name: name.into(), tool, object };
+        let demonstration = Self { name: name.into(), tool: unwrapped(tool)?, object: unwrapped(object)? };
         let (from, to) = demonstration.common_time_s();
         if to - from < 1.0 / ALIGNED_RATE_HZ {
             let expected = "tool and object recorded at the same time".into();
             return Err(SkillError::RowCount { operation: OPERATION, found: 0, expected });
         }
+        let gap_s = demonstration.largest_gap_s();
+        if gap_s > LARGEST_GAP_S {
+            let expected = "at most 1 s between two rows of the tool or of the object";
+            return Err(SkillError::InvalidArgument {
+                operation: OPERATION,
+                argument: "gap_s",
+                found: gap_s,
+                expected,
+            });
+        }
         Ok(demonstration)
+    }
+
+    /// Largest time between two rows of one recording, as far as both were recording, s.
+    fn largest_gap_s(&self) -> f64 {
+        let (from, to) = self.common_time_s();
+        let gap = |pair: &[f64]| match pair {
+            [before, after] => after.min(to) - before.max(from),
+            _ => 0.0,
+        };
+        let recordings = [&self.tool, &self.object].into_iter();
+        recordings.flat_map(|recording| recording.times_s().windows(2)).map(gap).fold(0.0, f64::max)
     }
 
     fn common_time_s(&self) -> (f64, f64) {
@@ -58,24 +85,21 @@ impl Demonstration {
         (from, self.tool.end_time_s().min(self.object.end_time_s()))
     }
 
-    /// Brings tool and object on one uniform clock and smooths the object's path.
+    /// Brings tool and object on one uniform clock and smooths both paths; the tool's angle is kept as recorded.
     #[must_use]
     pub fn aligned(&self) -> Aligned {
         let (from, to) = self.common_time_s();
         let time_step_s = 1.0 / ALIGNED_RATE_HZ;
         let rows = ((to - from) * ALIGNED_RATE_HZ).floor() as usize + 1;
         let time = |row: usize| from + row as f64 * time_step_s;
-        let tool = (0..rows).map(|row| self.tool.at(time(row))).map(|p| Isometry2::new(Vector2::new(p[0], p[1]), p[2]));
-        let raw: Vec<Point2<f64>> =
-            (0..rows).map(|row| self.object.at(time(row))).map(|p| Point2::new(p[0], p[1])).collect();
-        let tool: Vec<Isometry2<f64>> = tool.collect();
-        let rows = SMOOTHING_S / time_step_s;
-        let places: Vec<Point2<f64>> = tool.iter().map(|pose| Point2::from(pose.translation.vector)).collect();
-        let steady = tool
-            .iter()
-            .zip(smoothed(&places, rows))
-            .map(|(pose, place)| Isometry2::from_parts(place.into(), pose.rotation));
-        Aligned { time_step_s, tool: steady.collect(), object: smoothed(&raw, rows) }
+        let places = |recording: &Trajectory| -> Vec<Point2<f64>> {
+            let raw: Vec<_> =
+                (0..rows).map(|row| recording.at(time(row))).map(|pose| Point2::new(pose[0], pose[1])).collect();
+            smoothed(&raw, SMOOTHING_S / time_step_s)
+        };
+        let poses = places(&self.tool).into_iter().enumerate();
+        let tool = poses.map(|(row, place)| Isometry2::new(place.coords, self.tool.at(time(row))[2])).collect();
+        Aligned { time_step_s, tool, object: places(&self.object) }
     }
 }
 
@@ -104,6 +128,19 @@ impl Aligned {
             })
             .collect()
     }
+}
+
+/// The recording with an angle that never jumps by more than half a turn.
+fn unwrapped(recording: Trajectory) -> Result<Trajectory, SkillError> {
+    const ANGLE: usize = 2;
+    let mut samples = recording.samples().clone();
+    let mut last = None;
+    for angle in samples.column_mut(ANGLE).iter_mut() {
+        let turns = last.map_or(0.0, |last: f64| ((last - *angle) / TAU).round());
+        *angle += turns * TAU;
+        last = Some(*angle);
+    }
+    Trajectory::new(recording.times_s().to_vec(), samples)
 }
 
 /// Gaussian smoothing with a standard deviation of `sd` rows; the ends are continued by point reflection, so they stay.
@@ -165,5 +202,34 @@ mod tests {
     #[test]
     fn recordings_of_different_times_are_refused() {
         assert!(Demonstration::new("a", straight(200.0, 0.0), straight(30.0, 10.0)).is_err());
+    }
+
+    #[test]
+    fn a_recording_of_two_columns_is_refused() {
+        let flat = Trajectory::uniform(0.1, DMatrix::zeros(20, 2)).unwrap();
+        let refused = Demonstration::new("a", straight(200.0, 0.0), flat);
+        assert!(matches!(refused, Err(SkillError::Dimension { found: 2, expected: 3, .. })));
+    }
+
+    #[test]
+    fn a_huge_gap_is_refused_while_both_record_and_allowed_before_and_after() {
+        let rows = |times: &[f64]| Trajectory::new(times.to_vec(), DMatrix::zeros(times.len(), 3)).unwrap();
+        let refused = Demonstration::new("a", rows(&[0.0, 0.5, 1e9]), rows(&[0.0, 1e9]));
+        assert!(matches!(refused, Err(SkillError::InvalidArgument { argument: "gap_s", found, .. }) if found > 9e8));
+        let refused = Demonstration::new("a", rows(&[0.0, 0.5, 1.0, 1.5, 2.0]), rows(&[0.0, 0.4, 1.6, 2.0]));
+        assert!(matches!(refused, Err(SkillError::InvalidArgument { found, .. }) if (found - 1.2).abs() < 1e-12));
+        assert!(Demonstration::new("a", rows(&[-1e9, 0.0, 0.5, 1e9]), rows(&[0.0, 0.5])).is_ok());
+    }
+
+    #[test]
+    fn a_tool_that_turns_past_half_a_turn_is_not_spun_back() {
+        let angle = |time: f64| Isometry2::<f64>::rotation(3.0 + 0.2 * time).rotation.angle();
+        let samples = DMatrix::from_fn(40, 3, |row, column| if column == 2 { angle(row as f64 * 0.05) } else { 0.0 });
+        let tool = Trajectory::uniform(0.05, samples).unwrap();
+        let aligned = Demonstration::new("a", tool, straight(30.0, 0.0)).unwrap().aligned();
+        for (row, pose) in aligned.tool.iter().enumerate() {
+            let expected = Isometry2::<f64>::rotation(3.0 + 0.2 * row as f64 * aligned.time_step_s);
+            assert!(pose.rotation.angle_to(&expected.rotation).abs() < 1e-9);
+        }
     }
 }

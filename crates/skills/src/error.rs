@@ -70,7 +70,7 @@ pub enum SkillError {
     },
     /// Two trajectories to be joined do not meet.
     #[error(
-        "concatenate trajectories: the ends are {gap} apart; expected at most {largest_gap}; move the second one or \
+        "join motions: the ends are {gap} apart; expected at most {largest_gap}; move the second one or \
          allow a larger gap"
     )]
     Gap {
@@ -95,7 +95,7 @@ pub enum SkillError {
         /// Coordinates of the first demonstration.
         expected: usize,
     },
-    /// The scaled forcing term cannot be learnt where a demonstration ends at its start.
+    /// The scaled forcing term cannot be learned where a demonstration ends at its start.
     #[error(
         "learn primitive: demonstration {demonstration} displaces coordinate {coordinate} by {displacement} only; \
          expected more than {smallest} to scale its forcing term by; use form = \"residual\""

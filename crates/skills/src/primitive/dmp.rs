@@ -1,4 +1,4 @@
-//! The dynamic movement primitive of Eqs. (1)–(5): learnt from demonstrations, rolled out to another start, goal and
+//! The dynamic movement primitive of Eqs. (1)–(5): learned from demonstrations, rolled out to another start, goal and
 //! duration.
 //!
 //! Departs from the paper: by default the primitive moves a residual about a minimum-jerk transfer instead of Eq. (1) as
@@ -26,7 +26,7 @@ use forcing::ForcingTerm;
 
 /// Dynamic movement primitive of d coordinates, Eq. (1): τv̇ = α(β(g − x) − v) + f(s), τẋ = v.
 ///
-/// Immutable once learnt; [`Dmp::stepper`] starts a motion of it.
+/// Immutable once learned; [`Dmp::stepper`] starts a motion of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dmp {
     form: DmpForm,
@@ -39,7 +39,7 @@ impl Dmp {
     /// Learns the forcing term from one or more demonstrations by Eqs. (4) and (5).
     ///
     /// Demonstrations share the dimension d, unit and frame; starts, goals, durations and sampling may differ, each being
-    /// learnt in its own time over duration, from its own start to its own end. Where one of them does not come to rest,
+    /// learned in its own time over duration, from its own start to its own end. Where one of them does not come to rest,
     /// the forcing term fades before the end of the motion (see [`Dmp::fades_before_end`]).
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Dmp {
         })
     }
 
-    /// Returns the form of Eq. (1) this was learnt in.
+    /// Returns the form of Eq. (1) this was learned in.
     #[must_use]
     pub fn form(&self) -> DmpForm {
         self.form

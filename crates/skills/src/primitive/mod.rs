@@ -1,4 +1,4 @@
-//! Movement primitives: the contract of what can be rolled out, and the list of kinds that can be learnt.
+//! Movement primitives: the contract of what can be rolled out, and the list of kinds that can be learned.
 //!
 //! A further kind is one file with an implementation of [`MovementPrimitive`], and its lines in this one.
 
@@ -16,7 +16,7 @@ use crate::error::SkillError;
 use crate::field::FieldError;
 use crate::trajectory::Trajectory;
 
-/// Learnt motion that can be rolled out to another start, goal and duration.
+/// Learned motion that can be rolled out to another start, goal and duration.
 ///
 /// Contract: a rollout begins exactly at the requested start, tends to the goal, and is a pure function of the primitive
 /// and the request.

@@ -1,10 +1,16 @@
 //! Steering a push: velocity of the tool that brings the object back to its line and keeps it on the contact surface.
 //!
-//! Quasi-static law of a disc that rolls on the tool without slipping: of a lateral motion of the tool the object keeps
-//! 1/(1 + R²/c²), the rest turns the line of contact. With u the lateral offset of the object's center from the middle
-//! of the contact surface, v the speed of the push and 1/ρ the relative curvature of tool and object,
-//! u̇ = κ v u/ρ − κ v_t and ė = v u/ρ + (1 − κ) v_t with κ = 1/(1 + c²/R²). A round tool on a disc is thus unstable with
-//! an e-folding length ρ/κ; it is stabilized by v_t = (k/κ)(u − uᵈ), where uᵈ leads the object back to its line.
+//! Quasi-static law of a disc that rolls on the tool without slipping: of a motion of the tool along the contact's tangent
+//! the object keeps 1/(1 + R²/c²), the rest turns the line of contact. With u the lateral offset of the object's center
+//! from the middle of the contact surface, e its deviation from its line, v the speed of the push along the contact's
+//! normal, v_t the tool's along its tangent, and 1/ρ the relative curvature of tool and object,
+//! u̇ = −κ v_t and ė = v u/ρ + (1 − κ) v_t with κ = 1/(1 + c²/R²).
+//!
+//! A round tool that goes straight ahead slides back by v_t = −v u/ρ along the leaning tangent: the offset grows with an
+//! e-folding length ρ/κ. It is stabilized by v_t = v (u − uᵈ)/(κ l), where uᵈ = −e ρ/L leads the object back to its line.
+//! That is stable for L > ρ (1 − κ)/κ: what the tool drags along must not outrun what the lean brings back.
+//!
+//! On a face 1/ρ = 0 and e + u (1 − κ)/κ stays what it is: rolling trades one for the other. Of either, half is left.
 
 use nalgebra::{Point2, Unit, Vector2};
 use serde::{Deserialize, Serialize};
@@ -17,7 +23,7 @@ use crate::field::{FieldError, positive, within};
 pub struct SteeringConfig {
     /// Way of the push over which an offset on the surface fades, m.
     pub offset_length_m: f64,
-    /// Way of the push over which a deviation from the line fades, m.
+    /// Way of the push over which a deviation from the line fades on a round surface, m; longer where that is unstable.
     pub line_length_m: f64,
     /// Largest offset that is asked for, as a share of what the surface allows.
     pub offset_share: f64,
@@ -58,8 +64,10 @@ pub struct Steering {
     half_length_m: f64,
     /// Distance of the object's center from the contact, m.
     object_radius_m: f64,
-    /// κ: share of a lateral motion of the tool that turns the line of contact.
+    /// κ: share of a motion of the tool along the contact's tangent that turns the line of contact.
     rolling_share: f64,
+    /// (1 − κ)/κ: way that the object is dragged along per change of its offset.
+    drag: f64,
 }
 
 /// What the tool should do now.
@@ -91,10 +99,11 @@ impl Steering {
         let ratio = friction_length_m / object_radius_m;
         let rolling_share = 1.0 / (1.0 + ratio * ratio);
         let config = config.clone();
-        Self { config, line_point, direction, surface_radius_m, half_length_m, object_radius_m, rolling_share }
+        let drag = ratio * ratio;
+        Self { config, line_point, direction, surface_radius_m, half_length_m, object_radius_m, rolling_share, drag }
     }
 
-    /// Velocity of the tool for an object at `center` whose surface's middle is at `contact` with outward `normal`.
+    /// Velocity of a tool whose surface has its middle at `contact` with outward `normal`, for an object at `center`.
     #[must_use]
     pub fn command(
         &self,
@@ -107,32 +116,55 @@ impl Steering {
         let left = Vector2::new(-self.direction.y, self.direction.x);
         let offset_m = (center - contact).dot(&tangent);
         let deviation_m = (center - self.line_point).dot(&left);
-        let reach = self.surface_radius_m + self.object_radius_m;
-        let curved = self.surface_radius_m.is_finite();
-        // lateral offset that the surface's ends allow
-        let largest = self.config.offset_share
-            * if curved { self.half_length_m * reach / self.surface_radius_m } else { self.half_length_m };
-        let wanted = if curved {
-            // the object moves along the line of centers: lean it back to the line
-            -deviation_m * reach / self.config.line_length_m
-        } else {
-            // on a face only rolling moves the object sideways, by (1 - kappa)/kappa of the offset that it costs
-            deviation_m * self.rolling_share / (1.0 - self.rolling_share)
-        };
-        let wanted = wanted.clamp(-largest.abs(), largest.abs());
-        let slope = (offset_m - wanted) / (self.rolling_share * self.config.offset_length_m);
-        let slope = slope.clamp(-self.config.largest_slope, self.config.largest_slope);
-        let across =
-            if curved { self.lean(offset_m / reach, normal, &tangent) } else { (normal.into_inner(), tangent) };
-        let velocity_world = (across.0 + across.1 * slope) * speed_m_per_s;
-        SteeringCommand { velocity_world, offset_m, deviation_m }
+        let lean = self.reach_m().map_or(0.0, |reach_m| offset_m / reach_m);
+        let (normal, tangent) = leaned(lean, normal, &tangent);
+        let slope = (offset_m - self.wanted_offset_m(deviation_m)) / (self.rolling_share * self.config.offset_length_m);
+        let slope = limited(slope, self.config.largest_slope);
+        SteeringCommand { velocity_world: (normal + tangent * slope) * speed_m_per_s, offset_m, deviation_m }
     }
 
-    /// Normal and tangent where the object touches a curved surface, from its offset in units of the reach.
-    fn lean(&self, sine: f64, normal: &Unit<Vector2<f64>>, tangent: &Vector2<f64>) -> (Vector2<f64>, Vector2<f64>) {
-        let sine = sine.clamp(-1.0, 1.0);
-        let cosine = (1.0 - sine * sine).sqrt();
-        let leaned = normal.into_inner() * cosine + tangent * sine;
-        (leaned, Vector2::new(-leaned.y, leaned.x))
+    /// ρ: signed distance of the object's center from the center of a round surface, m; `None` where the object cannot lean.
+    fn reach_m(&self) -> Option<f64> {
+        let reach_m = self.surface_radius_m + self.object_radius_m;
+        (reach_m.is_finite() && reach_m.abs() > SOCKET_M).then_some(reach_m)
+    }
+
+    /// uᵈ: the offset at which the object should be held to come back to its line, within what the surface allows, m.
+    fn wanted_offset_m(&self, deviation_m: f64) -> f64 {
+        match self.reach_m() {
+            Some(reach_m) => {
+                // the object moves along the line of centers: lean it back to the line
+                let length_m = self.config.line_length_m.max(STABLE_MARGIN * self.drag * reach_m);
+                let largest = self.half_length_m * reach_m / self.surface_radius_m;
+                limited(-deviation_m * reach_m / length_m, self.config.offset_share * largest)
+            }
+            // on a face only rolling moves the object sideways, by the drag that its offset costs
+            None if self.surface_radius_m.is_infinite() && self.drag > 0.0 => {
+                limited(deviation_m / self.drag, self.config.offset_share * self.half_length_m)
+            }
+            None => 0.0,
+        }
     }
 }
+
+/// A hollow that fits the object to this length is a socket, m: in it nothing rolls.
+const SOCKET_M: f64 = 0.001;
+/// The line length is at least this many times the one at which the law becomes unstable.
+const STABLE_MARGIN: f64 = 2.0;
+
+/// The value, its magnitude at most `largest`.
+fn limited(value: f64, largest: f64) -> f64 {
+    value.max(-largest.abs()).min(largest.abs())
+}
+
+/// Normal and tangent turned to the left by an angle of the given sine.
+fn leaned(sine: f64, normal: &Unit<Vector2<f64>>, tangent: &Vector2<f64>) -> (Vector2<f64>, Vector2<f64>) {
+    let sine = limited(sine, 1.0);
+    let cosine = (1.0 - sine * sine).sqrt();
+    let leaned = normal.into_inner() * cosine + tangent * sine;
+    (leaned, Vector2::new(-leaned.y, leaned.x))
+}
+
+#[cfg(test)]
+#[path = "steering_tests.rs"]
+mod tests;

@@ -1,13 +1,13 @@
-//! What is learnt: object-operating (O2) skills and the tool-flipping (TF) skills between them.
+//! What is learned: object-operating (O2) skills and the tool-flipping (TF) skills between them.
 
 use nalgebra::{Point2, Vector2};
 
+use super::refusal::LearnError;
 use crate::demonstration::{Aligned, Demonstration, path};
 use crate::error::SkillError;
 use crate::outline::Outline;
 use crate::primitive::{MovementPrimitive, PrimitiveConfig};
 use crate::segmentation::{PushFragment, pushes};
-use crate::time_law::minimum_jerk;
 use crate::tool::Tool;
 
 /// How an object moves under one contact surface.
@@ -36,12 +36,14 @@ pub struct SkillLibrary {
     pub pushes: Vec<ObjectOperatingSkill>,
     /// The ways of the tool before, between and after them: one more than there are pushes.
     pub flips: Vec<ToolFlippingSkill>,
+    /// Kind of the primitives, for ways that no demonstration shows.
+    primitive: PrimitiveConfig,
 }
 
 /// What became of the demonstrations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LearningReport {
-    /// Names of the demonstrations that were learnt from.
+    /// Names of the demonstrations that were learned from.
     pub used: Vec<String>,
     /// Names of those that were left out, with the reason.
     pub left_out: Vec<(String, String)>,
@@ -49,20 +51,24 @@ pub struct LearningReport {
     pub renewed_holds: usize,
 }
 
+/// A demonstration whose tool is turned by more than this is left out, rad: hands keep an angle more closely.
+const TURNED_RAD: f64 = 0.2;
+
 impl SkillLibrary {
     /// Learns from demonstrations with `tool` on an object of outline `object`.
     ///
-    /// Demonstrations whose sequence of contact surfaces differs from the most common one are left out and named.
+    /// Left out and named are demonstrations without a push, those whose tool does not keep its axes along the world's,
+    /// and those whose sequence of contact surfaces differs from the most common one (of equally common ones the first).
     ///
     /// # Errors
-    /// [`SkillError::NoDemonstrations`] if none shows a push; whatever the primitive's learning reports.
+    /// [`LearnError::NoPush`] if none is left; whatever the primitive's learning reports.
     pub fn learn(
         primitive: &PrimitiveConfig,
         demonstrations: &[Demonstration],
         tool: &Tool,
         object: &Outline,
-    ) -> Result<(Self, LearningReport), SkillError> {
-        let cut: Vec<(Aligned, Vec<PushFragment>)> = demonstrations
+    ) -> Result<(Self, LearningReport), LearnError> {
+        let cut: Vec<Shown> = demonstrations
             .iter()
             .map(|demonstration| {
                 let aligned = demonstration.aligned();
@@ -70,92 +76,85 @@ impl SkillLibrary {
                 (aligned, fragments)
             })
             .collect();
-        let sequences: Vec<Vec<usize>> =
-            cut.iter().map(|(_, fragments)| fragments.iter().map(|fragment| fragment.surface).collect()).collect();
-        let common = most_common(&sequences).ok_or(SkillError::NoDemonstrations)?;
-        let mut report = LearningReport::default();
-        let mut used = Vec::new();
-        for ((demonstration, sequence), shown) in demonstrations.iter().zip(&sequences).zip(&cut) {
-            if *sequence == common {
-                report.used.push(demonstration.name.clone());
-                report.renewed_holds += shown.1.iter().map(|fragment| fragment.runs.len() - 1).sum::<usize>();
-                used.push(shown);
-            } else {
-                let reason =
-                    format!("used the surfaces {}, most others {}", names(tool, sequence), names(tool, &common));
-                report.left_out.push((demonstration.name.clone(), reason));
+        let (used, report) = select(demonstrations, &cut, tool);
+        let Some((_, common)) = used.first() else {
+            return Err(LearnError::NoPush { found: demonstrations.len(), reasons: bracketed(&report.left_out) });
+        };
+        let learn_push = |(index, fragment): (usize, &PushFragment)| {
+            ObjectOperatingSkill::learn(primitive, &used, index, fragment.surface)
+        };
+        let pushes = common.iter().enumerate().map(learn_push).collect::<Result<_, _>>()?;
+        let flips = (0..=common.len()).map(|index| ToolFlippingSkill::learn(primitive, &used, index));
+        let flips = flips.collect::<Result<_, _>>()?;
+        Ok((Self { pushes, flips, primitive: primitive.clone() }, report))
+    }
+
+    /// A way that was not shown, through the given places relative to the object's center.
+    pub(super) fn way_along(&self, places: Vec<Point2<f64>>) -> Result<ToolFlippingSkill, SkillError> {
+        ToolFlippingSkill::along(&self.primitive, &[places])
+    }
+}
+
+/// A demonstration on one clock, cut into its pushes.
+pub(super) type Shown = (Aligned, Vec<PushFragment>);
+
+/// The demonstrations to learn from, and what is to be said of all.
+fn select<'a>(demonstrations: &[Demonstration], cut: &'a [Shown], tool: &Tool) -> (Vec<&'a Shown>, LearningReport) {
+    let sequences: Vec<Vec<usize>> = cut
+        .iter()
+        .filter(|(aligned, fragments)| turned_rad(aligned, fragments) <= TURNED_RAD)
+        .map(|(_, fragments)| surfaces(fragments))
+        .collect();
+    let common = most_common(&sequences).unwrap_or_default();
+    let mut report = LearningReport::default();
+    let mut used = Vec::new();
+    for (demonstration, shown) in demonstrations.iter().zip(cut) {
+        let (aligned, fragments) = shown;
+        let turned = turned_rad(aligned, fragments);
+        let reason = if fragments.is_empty() {
+            "shows no push".to_owned()
+        } else if turned > TURNED_RAD {
+            format!("holds the tool turned by {turned:.2} rad")
+        } else if surfaces(fragments) != common {
+            format!("pushes with {}, not with {}", names(tool, &surfaces(fragments)), names(tool, &common))
+        } else {
+            report.used.push(demonstration.name.clone());
+            report.renewed_holds +=
+                fragments.iter().map(|fragment| fragment.runs.len().saturating_sub(1)).sum::<usize>();
+            used.push(shown);
+            continue;
+        };
+        report.left_out.push((demonstration.name.clone(), reason));
+    }
+    (used, report)
+}
+
+fn surfaces(fragments: &[PushFragment]) -> Vec<usize> {
+    fragments.iter().map(|fragment| fragment.surface).collect()
+}
+
+/// Mean angle by which the tool is turned while it pushes, without sign, rad.
+fn turned_rad(aligned: &Aligned, fragments: &[PushFragment]) -> f64 {
+    let rows = fragments.iter().filter_map(|fragment| aligned.tool.get(fragment.first()..fragment.end()));
+    let angles: Vec<f64> = rows.flatten().map(|pose| pose.rotation.angle()).collect();
+    (angles.iter().sum::<f64>() / angles.len().max(1) as f64).abs()
+}
+
+impl ObjectOperatingSkill {
+    /// Learns push `index` of all demonstrations.
+    fn learn(primitive: &PrimitiveConfig, shown: &[&Shown], index: usize, surface: usize) -> Result<Self, SkillError> {
+        let mut paths = Vec::new();
+        for (aligned, fragments) in shown {
+            if let Some(fragment) = fragments.get(index) {
+                paths.push(path(&fragment.object_path(aligned), aligned.time_step_s)?);
             }
         }
-        let pushes = common.iter().enumerate().map(|(index, &surface)| learn_push(primitive, &used, index, surface));
-        let flips = (0..=common.len()).map(|index| learn_flip(primitive, &used, index));
-        let library = Self { pushes: pushes.collect::<Result<_, _>>()?, flips: flips.collect::<Result<_, _>>()? };
-        Ok((library, report))
+        let count = paths.len().max(1) as f64;
+        let ways = paths.iter().map(|path| path.end() - path.start()).map(|way| Vector2::new(way[0], way[1]));
+        let displacement = ways.sum::<Vector2<f64>>() / count;
+        let duration_s = paths.iter().map(|path| path.duration_s()).sum::<f64>() / count;
+        Ok(Self { surface, primitive: primitive.learn(&paths)?, displacement, duration_s })
     }
-}
-
-type Shown<'a> = &'a (Aligned, Vec<PushFragment>);
-
-fn learn_push(
-    primitive: &PrimitiveConfig,
-    shown: &[Shown<'_>],
-    index: usize,
-    surface: usize,
-) -> Result<ObjectOperatingSkill, SkillError> {
-    let mut paths = Vec::new();
-    for (aligned, fragments) in shown {
-        if let Some(fragment) = fragments.get(index) {
-            paths.push(path(&fragment.object_path(aligned), aligned.time_step_s)?);
-        }
-    }
-    let count = paths.len() as f64;
-    let displacement =
-        paths.iter().map(|path| path.end() - path.start()).map(|d| Vector2::new(d[0], d[1])).sum::<Vector2<f64>>();
-    let duration_s = paths.iter().map(|path| path.duration_s()).sum::<f64>() / count;
-    Ok(ObjectOperatingSkill {
-        surface,
-        primitive: primitive.learn(&paths)?,
-        displacement: displacement / count,
-        duration_s,
-    })
-}
-
-/// Way of the tool before push `index` (after the last push if there is none of that index), relative to the object.
-fn learn_flip(primitive: &PrimitiveConfig, shown: &[Shown<'_>], index: usize) -> Result<ToolFlippingSkill, SkillError> {
-    let mut paths = Vec::new();
-    for (aligned, fragments) in shown {
-        let from = index.checked_sub(1).and_then(|before| fragments.get(before)).map_or(0, PushFragment::end);
-        let to = fragments.get(index).map_or(aligned.len(), |fragment| fragment.first() + 1);
-        let rows = from.saturating_sub(1)..to;
-        let Some((tool, object)) = aligned.tool.get(rows.clone()).zip(aligned.object.get(rows)) else { continue };
-        let rest = object.iter().map(|point| point.coords).sum::<Vector2<f64>>() / object.len().max(1) as f64;
-        let relative: Vec<_> = tool.iter().map(|pose| Point2::from(pose.translation.vector - rest)).collect();
-        paths.push(path(&retimed(&relative), aligned.time_step_s)?);
-    }
-    let length_m = paths.iter().map(|path| path.path_length()).sum::<f64>() / paths.len().max(1) as f64;
-    Ok(ToolFlippingSkill { primitive: primitive.learn(&paths)?, length_m })
-}
-
-/// Rows of a retimed way.
-const RETIMED_ROWS: usize = 200;
-
-/// The way of a hand without its pauses: the same places, passed with the minimum-jerk time law of one free movement.
-///
-/// Demonstrations wait at different times for different reasons; only once aligned do they show the same way.
-fn retimed(way: &[Point2<f64>]) -> Vec<Point2<f64>> {
-    let mut length_m = 0.0;
-    let mut marks: Vec<(f64, Point2<f64>)> = Vec::with_capacity(way.len());
-    for point in way {
-        length_m += marks.last().map_or(0.0, |(_, last)| (point - last).norm());
-        marks.push((length_m, *point));
-    }
-    let at = |along: f64| -> Option<Point2<f64>> {
-        let next = marks.partition_point(|(mark, _)| *mark < along).clamp(1, marks.len().saturating_sub(1).max(1));
-        let ((from, a), (to, b)) = marks.get(next - 1).zip(marks.get(next))?;
-        let share = if to > from { ((along - from) / (to - from)).clamp(0.0, 1.0) } else { 0.0 };
-        Some(a + (b - a) * share)
-    };
-    let place = |row: usize| at(length_m * minimum_jerk(row as f64 / (RETIMED_ROWS - 1) as f64));
-    (0..RETIMED_ROWS).filter_map(place).collect()
 }
 
 fn most_common(sequences: &[Vec<usize>]) -> Option<Vec<usize>> {
@@ -169,4 +168,24 @@ fn names(tool: &Tool, sequence: &[usize]) -> String {
     let names = sequence.iter().filter_map(|surface| tool.surfaces.get(*surface)).map(|surface| surface.name.as_str());
     let joined = names.collect::<Vec<_>>().join(" - ");
     if joined.is_empty() { "(no push)".into() } else { joined }
+}
+
+fn bracketed(left_out: &[(String, String)]) -> String {
+    let all: Vec<String> = left_out.iter().map(|(name, reason)| format!("{name} {reason}")).collect();
+    if all.is_empty() { String::new() } else { format!(" ({})", all.join("; ")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_equally_common_sequences_the_first_shown_wins() {
+        let sequences = |all: &[&[usize]]| all.iter().map(|one| one.to_vec()).collect::<Vec<_>>();
+        assert_eq!(most_common(&sequences(&[&[1], &[0, 1], &[0, 1], &[1]])), Some(vec![1]));
+        assert_eq!(most_common(&sequences(&[&[1], &[0, 1], &[0, 1]])), Some(vec![0, 1]));
+        assert_eq!(most_common(&sequences(&[&[], &[], &[0]])), Some(vec![0]));
+        assert_eq!(most_common(&sequences(&[&[]])), None);
+        assert_eq!(most_common(&[]), None);
+    }
 }

@@ -3,11 +3,15 @@
 //! A stick pushes in the directions of its surfaces only, so a displacement is divided among the surfaces in the order of
 //! the demonstration: lengths that add up to the displacement and are nearest to the demonstrated ones.
 
-use nalgebra::{DVector, Isometry2, Point2, Rotation2, UnitComplex, Vector2, Vector3};
+use nalgebra::{DVector, Point2, Rotation2, UnitComplex, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::legs::{Undivided, divide};
-use super::library::{ObjectOperatingSkill, SkillLibrary, ToolFlippingSkill};
+use super::closing::{closed, turned};
+use super::legs::{Undivided, divide_within};
+use super::library::{ObjectOperatingSkill, SkillLibrary};
+use super::refusal::PlanError;
+use super::routing::Surroundings;
+use super::ways::{ROUND_M, round_object};
 use crate::error::SkillError;
 use crate::outline::Outline;
 use crate::plan::{Action, ActionKind, Plan, PlanarMotion, Push, Track};
@@ -18,7 +22,7 @@ use crate::tool::{Contact, ContactSurface, Tool};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Orientation {
-    /// As in the demonstrations: the tool keeps its angle.
+    /// As in the demonstrations: the tool's axes stay along the world's.
     #[default]
     Fixed,
     /// With the task: by the angle between the demonstrated and the wanted displacement of the object.
@@ -50,69 +54,102 @@ pub struct PushProblem<'a> {
     pub time_step_s: f64,
 }
 
-/// Why there is no plan.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum PlanError {
-    /// The demonstrated surfaces cannot push the object to the goal.
-    #[error(
-        "plan push: the goal needs {length_m:.4} m of push with the surface '{surface}'; expected at least 0, since a \
-         surface cannot pull; choose another goal, or demonstrate with a surface that faces the other way"
-    )]
-    Pull {
-        /// Name of the surface.
-        surface: String,
-        /// Length that it would have to push, m.
-        length_m: f64,
-    },
-    /// The demonstrated surfaces do not span the displacement.
-    #[error(
-        "plan push: the demonstrated surfaces miss the goal by {miss_m:.4} m; expected directions that add up to the \
-         displacement; demonstrate a push in the missing direction"
-    )]
-    Directions {
-        /// What is left of the displacement, m.
-        miss_m: f64,
-    },
-    /// A skill could not be rolled out.
-    #[error(transparent)]
-    Skill(#[from] SkillError),
-}
-
 /// Gap between tool and object at the end of an approach, m: the push closes it.
 const APPROACH_GAP_M: f64 = 0.001;
-/// A rolled-out way is closed to its goal within its last share, so that actions meet exactly.
-const CLOSING_SHARE: f64 = 0.3;
+/// Shortest push worth a hold of its own, m: twice what a camera is usually off by. What is shorter is left out.
+const SHORTEST_PUSH_M: f64 = 0.002;
+/// A motion has at least this many time steps.
+const FEWEST_STEPS: f64 = 10.0;
+
+/// Where the plan has got to.
+struct Progress {
+    /// Place of the tool, and the direction in which it leaves its hold: zero without one.
+    tool_world: (Point2<f64>, Vector2<f64>),
+    object_world: Point2<f64>,
+    /// Index of the next way of the tool that was not used yet.
+    flip: usize,
+}
 
 impl PushProblem<'_> {
     /// Plans with the skills of `library`.
     ///
+    /// Each push goes along the normal of its surface, as far as the goal needs; what no push of 2 mm or more can mend is
+    /// left. A push that the task does not need is left out, and the tool goes directly to the next hold, by the shortest
+    /// way round the object.
+    ///
     /// # Errors
-    /// A [`PlanError`] that says which surface or direction is in the way.
+    /// A [`PlanError`] that says which surface or direction is in the way, or which argument is out of its range.
     pub fn plan(&self, library: &SkillLibrary) -> Result<Plan, PlanError> {
+        self.validate()?;
         let angle_rad = self.tool_angle_rad(library);
-        let lengths = self.leg_lengths(library, angle_rad)?;
+        let surfaces = self.surfaces(library)?;
+        let lengths = self.leg_lengths(library, &surfaces, angle_rad)?;
         let mut actions = Vec::new();
-        let mut center = self.start_world;
-        let mut tool_at = self.home_world;
-        for (index, (skill, length)) in library.pushes.iter().zip(&lengths).enumerate() {
-            let Some(surface) = self.tool.surfaces.get(skill.surface) else { continue };
-            let contact = surface.middle();
-            let end = center + self.direction(&contact, angle_rad) * *length;
-            let hold = self.hold(&contact, &center, APPROACH_GAP_M, angle_rad);
-            if let Some(flip) = library.flips.get(index) {
-                let name =
-                    if index == 0 { format!("approach {}", surface.name) } else { format!("flip to {}", surface.name) };
-                actions.push(self.flip(flip, name, tool_at, hold, center, angle_rad)?);
+        let mut now =
+            Progress { tool_world: (self.home_world, Vector2::zeros()), object_world: self.start_world, flip: 0 };
+        for (index, ((skill, surface), length)) in library.pushes.iter().zip(&surfaces).zip(&lengths).enumerate() {
+            if *length <= 0.0 {
+                continue;
             }
-            actions.push(self.push(skill, surface, center, end, angle_rad)?);
-            tool_at = self.hold(&contact, &end, 0.0, angle_rad);
-            center = end;
+            let contact = surface.middle();
+            let along = self.direction(&contact, angle_rad);
+            let end = now.object_world + along * *length;
+            let hold = (self.hold(&contact, &now.object_world, APPROACH_GAP_M, angle_rad), -along);
+            let verb = if actions.is_empty() { "approach" } else { "flip to" };
+            actions.push(self.flip(library, &mut now, index, format!("{verb} {}", surface.name), hold, angle_rad)?);
+            actions.push(self.push(skill, surface, now.object_world, end, angle_rad)?);
+            now.tool_world = (self.hold(&contact, &end, 0.0, angle_rad), -along);
+            now.object_world = end;
         }
-        if let Some(flip) = library.flips.last() {
-            actions.push(self.flip(flip, "withdraw".into(), tool_at, self.park_world, center, angle_rad)?);
-        }
+        let last = library.pushes.len();
+        actions.push(self.flip(
+            library,
+            &mut now,
+            last,
+            "withdraw".into(),
+            (self.park_world, Vector2::zeros()),
+            angle_rad,
+        )?);
         Ok(Plan::new(actions)?)
+    }
+
+    /// Checks that places and speeds are numbers that a plan can be made of.
+    fn validate(&self) -> Result<(), SkillError> {
+        let refuse = |argument, found, expected| {
+            Err(SkillError::InvalidArgument { operation: "plan push", argument, found, expected })
+        };
+        for (argument, place) in [
+            ("start_world", self.start_world),
+            ("goal_world", self.goal_world),
+            ("home_world", self.home_world),
+            ("park_world", self.park_world),
+        ] {
+            if let Some(found) = place.iter().find(|coordinate| !coordinate.is_finite()) {
+                return refuse(argument, *found, "finite numbers");
+            }
+        }
+        for (argument, value) in [
+            ("push_speed_m_per_s", self.push_speed_m_per_s),
+            ("free_speed_m_per_s", self.free_speed_m_per_s),
+            ("time_step_s", self.time_step_s),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return refuse(argument, value, "a finite number greater than 0");
+            }
+        }
+        Ok(())
+    }
+
+    /// The surface of each push of the library.
+    fn surfaces(&self, library: &SkillLibrary) -> Result<Vec<&ContactSurface>, PlanError> {
+        let find = |skill: &ObjectOperatingSkill| {
+            self.tool.surfaces.get(skill.surface).ok_or_else(|| PlanError::Surface {
+                surface: skill.surface,
+                tool: self.tool.name.clone(),
+                surfaces: self.tool.surfaces.len(),
+            })
+        };
+        library.pushes.iter().map(find).collect()
     }
 
     /// Angle of the tool in this task, rad.
@@ -130,28 +167,27 @@ impl PushProblem<'_> {
         UnitComplex::new(angle_rad) * contact.normal.into_inner()
     }
 
-    /// Distance from the contact to the object's center when the surface's normal points at it, m.
-    fn object_depth_m(&self) -> f64 {
-        match self.object {
-            Outline::Disc { radius_m } => *radius_m,
-            other => -other.signed_distance_m(&other.centroid()),
-        }
-    }
-
-    /// Place of the tool's origin that holds the object at `center` with a gap.
+    /// Place of the tool's origin that holds the object at `center` with a gap, its nearest side to the contact.
     fn hold(&self, contact: &Contact, center: &Point2<f64>, gap_m: f64, angle_rad: f64) -> Point2<f64> {
-        let pose = self.tool.pose_touching(contact, center, self.object_depth_m(), gap_m, angle_rad);
+        let pose = self.tool.pose_touching(contact, center, self.object.inscribed_radius_m(), gap_m, angle_rad);
         Point2::from(pose.translation.vector)
     }
 
-    /// Length of each push: adds up to the displacement, nearest to the demonstrated lengths.
-    fn leg_lengths(&self, library: &SkillLibrary, angle_rad: f64) -> Result<Vec<f64>, PlanError> {
-        let surfaces: Vec<&ContactSurface> =
-            library.pushes.iter().filter_map(|push| self.tool.surfaces.get(push.surface)).collect();
+    /// Length of each push, m, zero if it is not needed: adds up to the displacement, nearest to the demonstrated lengths.
+    fn leg_lengths(
+        &self,
+        library: &SkillLibrary,
+        surfaces: &[&ContactSurface],
+        angle_rad: f64,
+    ) -> Result<Vec<f64>, PlanError> {
+        let wanted = self.goal_world - self.start_world;
+        if wanted.norm() < SHORTEST_PUSH_M {
+            return Err(PlanError::AtGoal { distance_m: wanted.norm(), least_m: SHORTEST_PUSH_M });
+        }
         let normals: Vec<Vector2<f64>> =
             surfaces.iter().map(|surface| self.direction(&surface.middle(), angle_rad)).collect();
         let shown: Vec<f64> = library.pushes.iter().map(|push| push.displacement.norm()).collect();
-        divide(&normals, &(self.goal_world - self.start_world), &shown).map_err(|undivided| match undivided {
+        divide_within(&normals, &wanted, &shown, SHORTEST_PUSH_M).map_err(|undivided| match undivided {
             Undivided::Directions(miss_m) => PlanError::Directions { miss_m },
             Undivided::Pull(index, length_m) => {
                 let surface = surfaces.get(index).map_or_else(String::new, |surface| surface.name.clone());
@@ -173,7 +209,7 @@ impl PushProblem<'_> {
         // the skill is rolled out as it was shown; the task may be turned against it
         let turn = Rotation2::new(angle_rad);
         let shown_way = turn.inverse() * way;
-        let duration_s = (way.norm() / self.push_speed_m_per_s).max(self.shortest_s());
+        let duration_s = self.whole_steps_s(way.norm() / self.push_speed_m_per_s);
         let origin = Vector2::zeros();
         let object = self.rollout(skill.primitive.as_ref(), origin, shown_way, duration_s)?;
         let gap = turn.inverse() * -self.direction(&contact, angle_rad) * APPROACH_GAP_M;
@@ -191,20 +227,33 @@ impl PushProblem<'_> {
         })
     }
 
+    /// The way of the tool to a hold or its park: the flip `last` if it is the next one, else one that was not shown.
     fn flip(
         &self,
-        skill: &ToolFlippingSkill,
+        library: &SkillLibrary,
+        now: &mut Progress,
+        last: usize,
         name: String,
-        from: Point2<f64>,
-        to: Point2<f64>,
-        center: Point2<f64>,
+        to: (Point2<f64>, Vector2<f64>),
         angle_rad: f64,
     ) -> Result<Action, PlanError> {
+        let center = now.object_world;
         let turn = Rotation2::new(angle_rad);
+        let direct;
+        let skill = match library.flips.get(last).filter(|_| now.flip == last) {
+            Some(skill) => skill,
+            None => {
+                let places = round_object(&self.surroundings(center, angle_rad), now.tool_world, to);
+                direct = library.way_along(places.into_iter().map(|place| turn.inverse() * place).collect())?;
+                &direct
+            }
+        };
+        now.flip = last + 1;
+        let (from, to) = (now.tool_world.0, to.0);
         let (start, goal) = (turn.inverse() * (from - center), turn.inverse() * (to - center));
-        // the way shown tells how much longer than the straight one it is
+        // a way round the object is longer than the straight one, as it was shown
         let length = skill.length_m.max((to - from).norm());
-        let duration_s = (length / self.free_speed_m_per_s).max(self.shortest_s());
+        let duration_s = self.whole_steps_s(length / self.free_speed_m_per_s);
         let motions = self.rollout(skill.primitive.as_ref(), start, goal, duration_s)?;
         let rows = motions.len();
         let tool = motions.iter().map(|motion| turned(motion, &turn, &center, angle_rad)).collect();
@@ -217,8 +266,21 @@ impl PushProblem<'_> {
         })
     }
 
-    fn shortest_s(&self) -> f64 {
-        10.0 * self.time_step_s
+    fn surroundings(&self, center: Point2<f64>, angle_rad: f64) -> Surroundings<'_> {
+        Surroundings {
+            tool: self.tool,
+            angle_rad,
+            object_world: center,
+            object_radius_m: self.object.radius_m(),
+            obstacles: &[],
+            margin_m: ROUND_M,
+        }
+    }
+
+    /// The next whole number of time steps, s: tracks lie on a uniform grid.
+    fn whole_steps_s(&self, duration_s: f64) -> f64 {
+        // a rounding above a whole number is no further step
+        (duration_s / self.time_step_s - 1e-6).ceil().max(FEWEST_STEPS) * self.time_step_s
     }
 
     /// Rolls a primitive out and closes what is left at its end, so that it arrives exactly and at rest.
@@ -233,57 +295,6 @@ impl PushProblem<'_> {
         let request = RolloutRequest::new(vector(start), vector(goal), duration_s, self.time_step_s);
         let rollout = primitive.rollout(&request)?;
         let track = Track::from_rollout(&rollout, self.time_step_s, 0.0)?;
-        Ok(closed(&track, Vector3::new(goal.x, goal.y, 0.0)))
-    }
-}
-
-/// A track whose last share is bent so that it ends at `goal` with zero velocity and acceleration.
-fn closed(track: &Track, goal: Vector3<f64>) -> Vec<PlanarMotion> {
-    let duration = track.duration_s();
-    let from_s = duration * (1.0 - CLOSING_SHARE);
-    let end = track.end();
-    // what is left at the end, as a quintic that starts at zero and cancels it
-    let residual = |axis: usize| (goal[axis] - end.position[axis], -end.velocity[axis], -end.acceleration[axis]);
-    let horizon = duration - from_s;
-    track
-        .motions()
-        .iter()
-        .enumerate()
-        .map(|(row, motion)| {
-            let time = row as f64 * track.time_step_s() - from_s;
-            if time <= 0.0 {
-                return *motion;
-            }
-            let mut bent = *motion;
-            for axis in 0..3 {
-                let (position, velocity, acceleration) = quintic(residual(axis), horizon, time);
-                bent.position[axis] += position;
-                bent.velocity[axis] += velocity;
-                bent.acceleration[axis] += acceleration;
-            }
-            bent
-        })
-        .collect()
-}
-
-/// Quintic from rest at zero to the given position, velocity and acceleration at `horizon`, at `time`.
-fn quintic((p, v, a): (f64, f64, f64), horizon: f64, time: f64) -> (f64, f64, f64) {
-    let r = time / horizon;
-    let (v, a) = (v * horizon, a * horizon * horizon);
-    let (c3, c4, c5) = (10.0 * p - 4.0 * v + 0.5 * a, -15.0 * p + 7.0 * v - a, 6.0 * p - 3.0 * v + 0.5 * a);
-    let position = r * r * r * (c3 + r * (c4 + r * c5));
-    let velocity = r * r * (3.0 * c3 + r * (4.0 * c4 + r * 5.0 * c5)) / horizon;
-    let acceleration = r * (6.0 * c3 + r * (12.0 * c4 + r * 20.0 * c5)) / (horizon * horizon);
-    (position, velocity, acceleration)
-}
-
-fn turned(motion: &PlanarMotion, turn: &Rotation2<f64>, origin: &Point2<f64>, angle_rad: f64) -> PlanarMotion {
-    let frame = Isometry2::new(origin.coords, turn.angle());
-    let at = frame * motion.point();
-    let free = |v: &Vector3<f64>| (turn * v.xy()).push(0.0);
-    PlanarMotion {
-        position: Vector3::new(at.x, at.y, angle_rad),
-        velocity: free(&motion.velocity),
-        acceleration: free(&motion.acceleration),
+        Ok(closed(&track, &Vector3::new(goal.x, goal.y, 0.0)))
     }
 }

@@ -37,7 +37,7 @@ pub fn locally_weighted(form: DmpForm) -> DmpConfig {
     DmpConfig { form, regression: RegressionConfig::Lwr(Lwr {}), ..DmpConfig::default() }
 }
 
-/// The primitive learnt from the weave in the given form; learnt once per test program.
+/// The primitive learned from the weave in the given form; learned once per test program.
 pub fn learn(form: DmpForm) -> Dmp {
     static LEARNT: LazyLock<Vec<Dmp>> = LazyLock::new(|| {
         let forms = [DmpForm::Residual, DmpForm::Eq1Literal, DmpForm::Scaled];

@@ -16,7 +16,7 @@ pub enum DmpForm {
     /// Eq. (1) as printed: a new goal steps the acceleration at the start by αβ(g_new − g_demo)/τ².
     Eq1Literal,
     /// Eq. (1) with f·(g − x0) per coordinate (Ijspeert et al. 2013): the shape scales and mirrors with the displacement,
-    /// vanishes for g = x0, and cannot be learnt from a coordinate that ends where it started.
+    /// vanishes for g = x0, and cannot be learned from a coordinate that ends where it started.
     Scaled,
 }
 

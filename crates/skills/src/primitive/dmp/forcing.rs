@@ -13,7 +13,7 @@ use crate::time_law::minimum_jerk;
 /// Part of the duration over which the forcing term fades.
 const FADE: f64 = 0.05;
 
-/// Learnt forcing term of d coordinates.
+/// Learned forcing term of d coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ForcingTerm {
     pub(super) canonical: CanonicalSystem,

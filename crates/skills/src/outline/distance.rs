@@ -1,0 +1,97 @@
+//! Distances from an outline and between outlines.
+
+use nalgebra::{Isometry2, Point2, Vector2};
+
+use super::{Outline, edges};
+
+impl Outline {
+    /// Distance of the centroid from the nearest side, m: the radius of the largest disc about it inside the outline.
+    #[must_use]
+    pub fn inscribed_radius_m(&self) -> f64 {
+        -self.signed_distance_m(&self.centroid())
+    }
+
+    /// Largest distance of a point of the outline from its origin, m.
+    #[must_use]
+    pub fn radius_m(&self) -> f64 {
+        match self {
+            Self::Disc { radius_m } => *radius_m,
+            Self::Box { width_m, height_m } => 0.5 * width_m.hypot(*height_m),
+            Self::Polygon { vertices_m } => vertices_m.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
+        }
+    }
+
+    /// Signed distance of a point (in the outline's frame, m): negative inside.
+    #[must_use]
+    pub fn signed_distance_m(&self, point: &Point2<f64>) -> f64 {
+        match self {
+            Self::Disc { radius_m } => point.coords.norm() - radius_m,
+            Self::Box { width_m, height_m } => {
+                let q = Vector2::new(point.x.abs() - width_m / 2.0, point.y.abs() - height_m / 2.0);
+                q.sup(&Vector2::zeros()).norm() + q.max().min(0.0)
+            }
+            Self::Polygon { vertices_m } => polygon_distance(vertices_m, point),
+        }
+    }
+}
+
+/// Distance between two outlines at their poses, m: negative when they overlap; `None` if one is not a valid outline.
+#[must_use]
+pub fn separation_m(first: &Outline, pose1: &Isometry2<f64>, second: &Outline, pose2: &Isometry2<f64>) -> Option<f64> {
+    let (shape1, shape2) = (first.shape()?, second.shape()?);
+    let to_pose = |pose: &Isometry2<f64>| {
+        parry2d::math::Pose::new(
+            parry2d::math::Vector::new(pose.translation.x, pose.translation.y),
+            pose.rotation.angle(),
+        )
+    };
+    // a contact at any distance: unlike a distance, it also tells how deep two outlines overlap
+    let contact = parry2d::query::contact(&to_pose(pose1), shape1.as_ref(), &to_pose(pose2), shape2.as_ref(), f64::MAX)
+        .ok()??;
+    Some(contact.dist)
+}
+
+fn polygon_distance(vertices: &[[f64; 2]], point: &Point2<f64>) -> f64 {
+    let mut inside = vertices.len() >= 3;
+    let mut distance = f64::INFINITY;
+    for (a, b) in edges(vertices) {
+        let edge = b - a;
+        let along = ((point - a).dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
+        distance = distance.min((point - (a + edge * along)).norm());
+        inside &= edge.perp(&(point - a)) >= 0.0;
+    }
+    if inside { -distance } else { distance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_inscribed_radius_is_the_distance_to_the_nearest_side() {
+        let triangle = Outline::Polygon { vertices_m: vec![[5.0, 5.0], [8.0, 5.0], [5.0, 9.0]] };
+        // the centroid of a triangle lies at a third of each height; the smallest is 12/5
+        assert_relative_eq!(triangle.inscribed_radius_m(), 0.8, epsilon = 1e-12);
+        assert_relative_eq!(Outline::Box { width_m: 3.0, height_m: 1.0 }.inscribed_radius_m(), 0.5);
+        assert_relative_eq!(Outline::Disc { radius_m: 0.012 }.inscribed_radius_m(), 0.012);
+    }
+
+    #[test]
+    fn separation_is_a_distance_apart_and_a_depth_in_overlap() {
+        let (disc, square) = (Outline::Disc { radius_m: 1.0 }, Outline::Box { width_m: 2.0, height_m: 2.0 });
+        for (x, expected) in [(5.0, 3.0), (2.0, 0.0), (1.5, -0.5)] {
+            let apart = separation_m(&disc, &Isometry2::translation(x, 0.0), &square, &Isometry2::identity());
+            assert_relative_eq!(apart.unwrap(), expected, epsilon = 1e-9);
+        }
+    }
+
+    #[test]
+    fn an_invalid_outline_has_no_separation() {
+        let disc = Outline::Disc { radius_m: 1.0 };
+        for vertices_m in [vec![], vec![[0.0, 0.0]], vec![[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], vec![[f64::NAN; 2]; 3]] {
+            let nothing = Outline::Polygon { vertices_m };
+            assert_eq!(separation_m(&nothing, &Isometry2::identity(), &disc, &Isometry2::identity()), None);
+        }
+    }
+}
