@@ -9,9 +9,9 @@ pub enum SimError {
     /// A configuration value that cannot be used.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// The state stopped being finite or left the map by more than its size: the numbers mean nothing from here on.
+    /// The state stopped being finite, or the object left the map by more than its size: numbers mean nothing from here on.
     #[error(
-        "simulate: {quantity} was {value} at {time_s:.4} s; expected a finite value; reduce simulation.time_step_s or the controller's gains"
+        "simulate: {quantity} was {value} at {time_s:.4} s; expected a finite value; reduce engine.time_step_s or the controller's gains"
     )]
     Diverged {
         /// What diverged, with its unit.

@@ -5,8 +5,8 @@
 //! passive from force to r, since Ṁ − 2C is skew for the Christoffel C that is used here. The printed plant equation has
 //! τ with the opposite sign, for which the law diverges.
 //!
-//! What breaks it: damping held constant over a control period needs ξ·dt/λ_min(M) < 2, so light joints without rotor
-//! inertia go unstable under gains that suit heavy ones. A constant tip force F leaves e = −JᵀF/(kₑξ).
+//! What breaks it: torques held over a control period dt feed velocity errors back with Ξ + kₑM, which needs
+//! (ξ/λ_min(M) + kₑ)·dt < 2: light joints without rotor inertia go unstable under gains that suit heavy ones. A constant tip force F leaves e = −JᵀF/(kₑξ).
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use robot::{JointReference, JointState, Workspace};
@@ -47,7 +47,7 @@ pub struct Impedance {
     velocity: DVector<f64>,
 }
 
-/// The sampled damping term alternates in sign beyond this value of ξ·dt/λ_min(M).
+/// Sampled feedback of velocity alternates in sign and grows beyond this value of (ξ/λ_min(M) + kₑ)·dt.
 const SAMPLED_DAMPING_BOUND: f64 = 2.0;
 
 impl Impedance {
@@ -78,7 +78,7 @@ impl Impedance {
         })
     }
 
-    /// Largest eigenvalue of M⁻¹Ξ at posture `q`, 1/s: the fastest rate at which the damping works.
+    /// kₑ plus the largest eigenvalue of M⁻¹Ξ at posture `q`, 1/s: the fastest rate at which velocity errors are fed back.
     fn fastest_rate_per_s(&self, workspace: &mut Workspace, q: &DVector<f64>) -> f64 {
         let mut mass = self.mass.clone();
         if workspace.set_positions(q).is_err() {
@@ -87,7 +87,7 @@ impl Impedance {
         workspace.mass_matrix_into(&mut mass);
         let root = DMatrix::from_diagonal(&self.damping.map(f64::sqrt));
         let Some(inverse) = mass.try_inverse() else { return f64::INFINITY };
-        SymmetricEigen::new(&root * inverse * &root).eigenvalues.max()
+        self.error_gain_per_s + SymmetricEigen::new(&root * inverse * &root).eigenvalues.max()
     }
 }
 
@@ -128,7 +128,7 @@ impl Controller for Impedance {
                 50.0_f64.ln() / self.error_gain_per_s
             ),
             format!(
-                "impedance: sampled damping xi*dt/lambda_min(M) is {ratio:.3} at the start (stable below {SAMPLED_DAMPING_BOUND})"
+                "impedance: sampled damping (xi/lambda_min(M) + k_e)*dt is {ratio:.3} at the start (stable below {SAMPLED_DAMPING_BOUND})"
             ),
         ]
     }
@@ -145,7 +145,7 @@ impl Controller for Impedance {
         }
         Err(FieldError::new(
             "damping_nm_s_per_rad",
-            format!("gains for which xi*dt/lambda_min(M) is {ratio:.2} at the start"),
+            format!("gains for which (xi/lambda_min(M) + error_gain_per_s)*dt is {ratio:.2} at the start"),
             format!(
                 "a ratio below {SAMPLED_DAMPING_BOUND}: smaller gains, more rotor inertia or a shorter control period"
             ),

@@ -64,6 +64,11 @@ impl Default for HumanConfig {
     }
 }
 
+/// Speeds of a hand, m/s, and the longest trial, s.
+const SLOWEST_M_PER_S: f64 = 1e-3;
+const FASTEST_M_PER_S: f64 = 2.0;
+const LONGEST_PATIENCE_S: f64 = 3600.0;
+
 impl HumanConfig {
     /// Checks the numbers.
     ///
@@ -72,9 +77,9 @@ impl HumanConfig {
     pub fn validate(&self) -> Result<(), FieldError> {
         within("reaction_s", self.reaction_s, 0.0, 2.0)?;
         not_negative("gain_per_s", self.gain_per_s)?;
-        positive("push_speed_m_per_s", self.push_speed_m_per_s)?;
-        positive("approach_speed_m_per_s", self.approach_speed_m_per_s)?;
-        positive("free_speed_m_per_s", self.free_speed_m_per_s)?;
+        within("push_speed_m_per_s", self.push_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
+        within("approach_speed_m_per_s", self.approach_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
+        within("free_speed_m_per_s", self.free_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
         positive("detour_m", self.detour_m)?;
         within("velocity_noise", self.velocity_noise, 0.0, 1.0)?;
         not_negative("constant_noise_m_per_s", self.constant_noise_m_per_s)?;
@@ -85,6 +90,6 @@ impl HumanConfig {
         positive("hand_mass_kg", self.hand_mass_kg)?;
         positive("hand_stiffness_n_per_m", self.hand_stiffness_n_per_m)?;
         positive("satisfied_m", self.satisfied_m)?;
-        positive("patience_s", self.patience_s)
+        within("patience_s", self.patience_s, 0.1, LONGEST_PATIENCE_S)
     }
 }

@@ -58,8 +58,6 @@ pub struct Trial {
     pub touches_s: Vec<(f64, f64)>,
 }
 
-/// The human decides a thousand times a second; what is decided changes no faster than the reaction time allows.
-const DECISION_PERIOD_S: f64 = 0.001;
 /// Rate at which the tool's pose is recorded, Hz.
 const TOOL_RECORDING_HZ: f64 = 200.0;
 /// Resolution of the tool's recorded position, m: a desktop haptic device.
@@ -68,13 +66,13 @@ const TOOL_GRID_M: f64 = 0.000_055;
 const EYE_NOISE_M: f64 = 0.0003;
 const EYE_RATE_HZ: f64 = 60.0;
 
-/// Lets a human show the task once; `trial` selects the random numbers.
+/// Lets a human show the task once; `trial` selects the random numbers. It counts from 0, names count from 1.
 ///
 /// # Errors
 /// A [`SimError`] if the scene is invalid, the surfaces cannot show the task, or the state diverges. A trial that misses
 /// its goal is no error: it says so.
 pub fn demonstrate(task: &DemonstrationTask<'_>, seed: u64, trial: u64) -> Result<Trial, SimError> {
-    let radius_m = -task.object.shape.signed_distance_m(&task.object.shape.centroid());
+    let radius_m = task.object.shape.inscribed_radius_m();
     let length_m = task.object.shape.mean_radius_m();
     let obstacles: Vec<PlacedOutline> = task.world.obstacles.iter().map(crate::planar::Obstacle::placed).collect();
     let start = Isometry2::new(task.start_world.coords, 0.0);
@@ -88,16 +86,18 @@ pub fn demonstrate(task: &DemonstrationTask<'_>, seed: u64, trial: u64) -> Resul
         task.human,
         legs,
         [task.home_world, task.park_world],
-        radius_m,
-        length_m,
+        &task.object.shape,
         noise,
     );
+    let steps = task.engine.steps_per_period();
+    // the human decides as often as a controller would; what is decided changes no faster than the reaction time allows
+    let period_s = steps as f64 * world.time_step_s();
     let eyes = eyes_of(task.human);
-    let mut belief = Tracker::new(task.tool, radius_m, length_m, task.start_world, &eyes, DECISION_PERIOD_S);
+    let mut belief = Tracker::new(task.tool, radius_m, length_m, task.start_world, &eyes, period_s);
     let mut eyes = Camera::new(&eyes, stream(seed, Purpose::Eyes, trial));
     let mut camera = Camera::new(task.camera, stream(seed, Purpose::Recorder, trial));
     let mut recorder = Recorder::default();
-    let steps = (DECISION_PERIOD_S / world.time_step_s()).round().max(1.0) as usize;
+    let mut hit_obstacle_s = None;
     while !operator.is_done() && world.time_s() < task.human.patience_s {
         let (time_s, object) = (world.time_s(), world.world_from_object());
         let tool = hand.world_from_tool(&world);
@@ -108,17 +108,21 @@ pub fn demonstrate(task: &DemonstrationTask<'_>, seed: u64, trial: u64) -> Resul
             world.contacts().iter().any(|contact| contact.involves(Party::Tool) && contact.involves(Party::Object)),
         );
         belief.advance(time_s, &tool, eyes.look(time_s, &object).as_ref());
-        let (place, velocity) = operator.act(time_s, DECISION_PERIOD_S, &tool, &belief);
+        let (place, velocity) = operator.act(time_s, period_s, &tool, &belief);
         for _ in 0..steps {
             hand.pull(&mut world, &place, &velocity, 0.0);
             world.step();
+            let hit = world.contacts().iter().any(crate::planar::ContactForce::involves_obstacle);
+            hit_obstacle_s = hit_obstacle_s.or(hit.then_some(time_s));
         }
         if !world.world_from_object().translation.vector.norm().is_finite() {
             return Err(SimError::Diverged { quantity: "the object's place".into(), value: f64::NAN, time_s });
         }
     }
     let goal_error_m = (Point2::from(world.world_from_object().translation.vector) - task.goal_world).norm();
-    let failure = if !operator.is_done() {
+    let failure = if let Some(time_s) = hit_obstacle_s {
+        Some(format!("touched an obstacle at {time_s:.2} s"))
+    } else if !operator.is_done() {
         Some(format!("took longer than {} s", task.human.patience_s))
     } else if goal_error_m > task.human.satisfied_m {
         Some(format!("left the object {:.1} mm from where it was wanted", 1e3 * goal_error_m))
@@ -127,7 +131,7 @@ pub fn demonstrate(task: &DemonstrationTask<'_>, seed: u64, trial: u64) -> Resul
     };
     let renewed_holds = operator.renewed_holds;
     let touches_s = recorder.touches_s.clone();
-    let demonstration = recorder.finish(&format!("trial {trial}"))?;
+    let demonstration = recorder.finish(&format!("trial {}", trial + 1))?;
     Ok(Trial { demonstration, failure, goal_error_m, renewed_holds, touches_s })
 }
 

@@ -1,7 +1,7 @@
 //! What the human decides: where to take hold, how to push, when to let go.
 
 use nalgebra::{Isometry2, Point2, Unit, Vector2};
-use skills::outline::PlacedOutline;
+use skills::outline::{Outline, PlacedOutline};
 use skills::pushing::{Steering, SteeringConfig};
 use skills::time_law::{minimum_jerk, minimum_jerk_first_derivative};
 use skills::tool::Tool;
@@ -54,6 +54,8 @@ pub(crate) struct Operator<'a> {
     /// Where the tool is put in the end.
     park: Point2<f64>,
     object_radius_m: f64,
+    /// Radius of the disc that holds the object, m.
+    bounding_radius_m: f64,
     friction_length_m: f64,
     /// Where the hand should be.
     place: Vector2<f64>,
@@ -73,15 +75,13 @@ const NOTICE_S: f64 = 0.3;
 const WAY_GAIN_PER_S: f64 = 6.0;
 
 impl<'a> Operator<'a> {
-    #[expect(clippy::too_many_arguments, reason = "one call; a struct of the same fields would say nothing more")]
     pub(crate) fn new(
         tool: &'a Tool,
         obstacles: &'a [PlacedOutline],
         config: &HumanConfig,
         legs: Vec<Leg>,
         [home, park]: [Point2<f64>; 2],
-        object_radius_m: f64,
-        friction_length_m: f64,
+        object: &Outline,
         mut noise: MotorNoise,
     ) -> Self {
         let mut config = config.clone();
@@ -97,8 +97,9 @@ impl<'a> Operator<'a> {
             leg: 0,
             doing,
             park,
-            object_radius_m,
-            friction_length_m,
+            object_radius_m: object.inscribed_radius_m(),
+            bounding_radius_m: object.radius_m(),
+            friction_length_m: object.mean_radius_m(),
             place: home.coords,
             velocity: Vector2::zeros(),
             noise,
@@ -134,7 +135,8 @@ impl<'a> Operator<'a> {
         };
         self.velocity = intended + self.noise.velocity(intended.norm(), dt);
         self.place += self.velocity * dt;
-        (self.place + self.noise.tremor_m(time_s), self.velocity)
+        let (tremor, tremor_rate) = self.noise.tremor(time_s);
+        (self.place + tremor, self.velocity + tremor_rate)
     }
 
     fn start(&mut self, next: Next, time_s: f64, object: &Point2<f64>) {
@@ -163,7 +165,7 @@ impl<'a> Operator<'a> {
             tool: self.tool,
             angle_rad: 0.0,
             object_world: *object,
-            object_radius_m: self.object_radius_m,
+            object_radius_m: self.bounding_radius_m,
             obstacles: self.obstacles,
             margin_m: HOLD_BACK_M * 0.6,
         };

@@ -38,7 +38,8 @@ struct ArmJoint {
 /// The tool becomes part of the body that holds the frame `flange`; gravity points into the table.
 ///
 /// # Errors
-/// [`SimError::Robot`] if the frame is unknown or the rotor inertias do not fit the arm.
+/// [`SimError::Robot`] if the frame is unknown or the rotor inertias do not fit the arm, [`SimError::Arm`] if a joint
+/// moves out of the plane.
 pub fn arm_with_tool(
     arm: &Manipulator,
     flange: &str,
@@ -57,6 +58,7 @@ pub fn arm_with_tool(
     if !rotor_inertia_kg_m2.is_empty() {
         model.set_rotor_inertia(rotor_inertia_kg_m2)?;
     }
+    check_planar(&model)?;
     Ok(model)
 }
 
@@ -87,7 +89,6 @@ impl PlanarArm {
         tool: &Tool,
         q: &DVector<f64>,
     ) -> Result<Self, SimError> {
-        check_planar(model)?;
         let flange = model.frame(flange)?;
         let (carrier, body_from_flange) = model.frame_attachment(flange);
         let world_from_base = planar(model.world_from_base());

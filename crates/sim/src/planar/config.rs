@@ -36,6 +36,12 @@ pub struct MapBounds {
 }
 
 impl MapBounds {
+    /// Length of the longer side, m.
+    #[must_use]
+    pub fn size_m(&self) -> f64 {
+        (Vector2::from(self.max_m) - Vector2::from(self.min_m)).max()
+    }
+
     /// Smallest distance of a point from the bounds, m: negative outside.
     #[must_use]
     pub fn margin_m(&self, point: &Point2<f64>) -> f64 {
@@ -58,7 +64,7 @@ pub struct Obstacle {
     /// Rotation of its frame in the world, rad.
     #[serde(default)]
     pub angle_rad: f64,
-    /// Coefficient of friction against the object and the tool.
+    /// Coefficient of friction against the object; against the tool, the larger of this and the tool's.
     #[serde(default = "default_obstacle_friction")]
     pub friction: f64,
 }
@@ -142,12 +148,17 @@ impl ObjectConfig {
     }
 }
 
+/// Rounding of decimal numbers in a ratio of two times.
+const WHOLE_STEPS: f64 = 1e-6;
+
 /// How time advances and how the engine solves contacts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct EngineConfig {
-    /// Time step of the physics, s.
+    /// Time step of the physics, s; the control period is a whole multiple of it.
     pub time_step_s: f64,
+    /// Time between two torques of the controller, s.
+    pub control_period_s: f64,
     /// Substeps of the contact solver within a time step.
     pub substeps: usize,
     /// Natural frequency of contacts, Hz: a contact under load gives way by the load's acceleration over (2πf)².
@@ -158,17 +169,42 @@ pub struct EngineConfig {
 
 impl Default for EngineConfig {
     fn default() -> Self {
-        Self { time_step_s: 0.0005, substeps: 1, contact_frequency_hz: 300.0, length_unit_m: 0.02 }
+        Self {
+            time_step_s: 0.0005,
+            control_period_s: 0.001,
+            substeps: 1,
+            contact_frequency_hz: 300.0,
+            length_unit_m: 0.02,
+        }
     }
 }
 
 impl EngineConfig {
+    /// Time steps of the physics in a control period.
+    #[must_use]
+    pub fn steps_per_period(&self) -> usize {
+        (self.control_period_s / self.time_step_s).round().max(1.0) as usize
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors
     /// A [`FieldError`] naming the offending value.
     pub fn validate(&self) -> Result<(), FieldError> {
         within("time_step_s", self.time_step_s, 1e-6, 0.01)?;
+        within("control_period_s", self.control_period_s, self.time_step_s, 0.1)?;
+        let steps = self.control_period_s / self.time_step_s;
+        if (steps - steps.round()).abs() > WHOLE_STEPS {
+            let found = format!(
+                "{} s, which goes {steps:.3} times into a control period of {} s",
+                self.time_step_s, self.control_period_s
+            );
+            return Err(FieldError::new(
+                "time_step_s",
+                found,
+                "a time step that divides control_period_s without a rest",
+            ));
+        }
         positive("contact_frequency_hz", self.contact_frequency_hz)?;
         positive("length_unit_m", self.length_unit_m)?;
         if (1..=64).contains(&self.substeps) {
@@ -176,5 +212,20 @@ impl EngineConfig {
         } else {
             Err(FieldError::new("substeps", self.substeps, "a number from 1 to 64"))
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_step_must_divide_the_control_period() {
+        assert!(EngineConfig::default().validate().is_ok());
+        assert!(EngineConfig { time_step_s: 0.001 / 3.0, ..EngineConfig::default() }.validate().is_ok());
+        let refused = EngineConfig { time_step_s: 0.0007, ..EngineConfig::default() }.validate().unwrap_err();
+        assert_eq!(refused.field, "time_step_s");
+        let refused = EngineConfig { time_step_s: 0.002, ..EngineConfig::default() }.validate().unwrap_err();
+        assert_eq!(refused.field, "control_period_s");
     }
 }

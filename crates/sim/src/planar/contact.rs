@@ -38,6 +38,12 @@ impl ContactForce {
         self.parties.contains(&party)
     }
 
+    /// Whether an obstacle takes part.
+    #[must_use]
+    pub fn involves_obstacle(&self) -> bool {
+        self.parties.iter().any(|party| matches!(party, Party::Obstacle(_)))
+    }
+
     /// Force on `receiver` if the contact is between it and `giver`, world axes, N.
     #[must_use]
     pub fn force_on_n(&self, receiver: Party, giver: Party) -> Option<Vector2<f64>> {

@@ -57,6 +57,8 @@ pub struct Sample<'a> {
     pub world_from_object_expected: Isometry2<f64>,
     /// What the camera showed last; `None` before its first frame.
     pub world_from_object_seen: Option<Isometry2<f64>>,
+    /// Where a steering controller believes the object to be; `None` if none is at work.
+    pub object_believed_world: Option<Point2<f64>>,
     /// Joint positions, rad.
     pub q_rad: &'a [f64],
     /// Joint velocities, rad/s.

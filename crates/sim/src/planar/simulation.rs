@@ -9,10 +9,10 @@ use skills::plan::{Plan, PlanarMotion};
 use skills::tool::Tool;
 
 use super::arm::{PlanarArm, spatial};
-use super::config::{EngineConfig, ObjectConfig, WorldConfig};
-use super::contact::Party;
+use super::config::{EngineConfig, MapBounds, ObjectConfig, WorldConfig};
+use super::contact::{ContactForce, Party};
 use super::episode::{Episode, EpisodeSample};
-use super::observer::{Event, EventLevel, Observer, Sample};
+use super::observer::{Event, EventLevel, Observer, Sample, SceneDescription};
 use super::reference::{ReferenceSource, ToolReference};
 use super::world::PlanarWorld;
 use crate::controllers::Controller;
@@ -35,8 +35,8 @@ pub struct PlanarSetup<'a> {
     pub flange: &'a str,
     /// Time step and contact solver.
     pub engine: &'a EngineConfig,
-    /// Time between two torques, s.
-    pub control_period_s: f64,
+    /// What onlookers are told of the scene.
+    pub scene: &'a SceneDescription,
     /// Time after the plan's end in which things come to rest, s.
     pub settle_s: f64,
     /// Simulated time at which the run is broken off, s.
@@ -68,8 +68,24 @@ pub fn check_reach(plan: &Plan, model: &Manipulator, flange: &str) -> Result<DVe
         let (index, local_s) = plan.due_at(time_s);
         let motion = plan.actions().get(index).map(|action| action.tool.at(local_s)).unwrap_or_default();
         follower.follow(&frame_motion(model, &motion), &mut reference).map_err(|error| unreachable(error, time_s))?;
+        check_speeds(model, &reference, time_s)?;
     }
     Ok(start)
+}
+
+/// Checks that no joint must turn faster than its limit.
+fn check_speeds(model: &Manipulator, reference: &JointReference, time_s: f64) -> Result<(), SimError> {
+    for (joint, speed) in model.joints().iter().zip(reference.dq.iter()) {
+        if let Some(limit) = joint.limits.velocity.filter(|limit| speed.abs() > *limit) {
+            let reason = format!(
+                "joint '{}' would have to turn at {:.2} rad/s; expected at most {limit} rad/s; slow the task down",
+                joint.name,
+                speed.abs()
+            );
+            return Err(SimError::Unreachable { reason, time_s });
+        }
+    }
+    Ok(())
 }
 
 fn in_base(model: &Manipulator, world_from_tool: &Isometry2<f64>) -> Isometry3<f64> {
@@ -104,15 +120,18 @@ pub fn simulate(
     observer: &mut dyn Observer,
 ) -> Result<Episode, SimError> {
     let mut run = Run::new(setup, q)?;
-    let periods = (setup.longest_s / setup.control_period_s).ceil() as usize;
+    observer.begin(setup.scene);
+    let period_s = run.period_s;
+    let periods = (setup.longest_s / period_s).ceil() as usize;
     let mut samples = Vec::with_capacity(periods);
     let mut finished_s = None;
     let mut interruption = None;
     for period in 0..periods {
-        let time_s = period as f64 * setup.control_period_s;
+        let time_s = period as f64 * period_s;
         let world_from_object = run.world.world_from_object();
         let sighting = camera.look(time_s, &world_from_object);
-        let reference = source.next(time_s, sighting.as_ref());
+        let world_from_tool = run.arm.world_from_tool(&run.world);
+        let reference = source.next(time_s, &world_from_tool, sighting.as_ref());
         if let Err(error) = run.follower.follow(&frame_motion(setup.model, &reference.tool), &mut run.reference) {
             interruption = Some(format!("the arm could not follow its reference at {time_s:.3} s: {error}"));
             observer.event(&Event { time_s, level: EventLevel::Error, text: error.to_string() });
@@ -134,7 +153,7 @@ pub fn simulate(
     }
     Ok(Episode {
         samples,
-        control_period_s: setup.control_period_s,
+        control_period_s: period_s,
         finished: finished_s.is_some(),
         interruption,
         digest: run.digest.finalize().to_hex().to_string(),
@@ -142,7 +161,7 @@ pub fn simulate(
 }
 
 /// Mutable state of a run.
-struct Run {
+struct Run<'a> {
     world: PlanarWorld,
     arm: PlanarArm,
     follower: DifferentialKinematics,
@@ -153,20 +172,26 @@ struct Run {
     limits_nm: Vec<f64>,
     joint_points: Vec<Point2<f64>>,
     steps_per_period: usize,
+    period_s: f64,
+    map: &'a MapBounds,
     digest: blake3::Hasher,
+    phases: &'a [String],
     phase: Option<usize>,
     limited: bool,
     was_limited: bool,
+    /// Whether something touched an obstacle in the last control period.
+    hit_obstacle: bool,
+    gave_up: bool,
     last_touch_s: Option<f64>,
     lost_contact: bool,
 }
 
-impl Run {
-    fn new(setup: &PlanarSetup<'_>, q: &DVector<f64>) -> Result<Self, SimError> {
+impl<'a> Run<'a> {
+    fn new(setup: &PlanarSetup<'a>, q: &DVector<f64>) -> Result<Self, SimError> {
         let mut world = PlanarWorld::new(setup.world, setup.object, setup.engine, &setup.world_from_object)?;
         let arm = PlanarArm::insert(&mut world, setup.model, setup.flange, setup.tool, q)?;
         let joints = setup.model.joint_count();
-        let steps_per_period = (setup.control_period_s / world.time_step_s()).round().max(1.0) as usize;
+        let steps_per_period = setup.engine.steps_per_period();
         Ok(Self {
             follower: DifferentialKinematics::new(setup.model, arm.flange(), TaskRows::PlanarPose)?,
             workspace: setup.model.workspace(),
@@ -176,10 +201,15 @@ impl Run {
             limits_nm: setup.model.joints().iter().map(|joint| joint.limits.effort.unwrap_or(f64::INFINITY)).collect(),
             joint_points: Vec::with_capacity(joints + 1),
             steps_per_period,
+            period_s: steps_per_period as f64 * world.time_step_s(),
+            map: &setup.world.map,
             digest: blake3::Hasher::new(),
+            phases: &setup.scene.phases,
             phase: None,
             limited: false,
             was_limited: false,
+            hit_obstacle: false,
+            gave_up: false,
             last_touch_s: None,
             lost_contact: false,
             world,
@@ -216,6 +246,7 @@ impl Run {
             world_from_object: self.world.world_from_object(),
             world_from_object_expected: reference.world_from_object_expected,
             world_from_object_seen: seen,
+            object_believed_world: reference.object_believed_world,
             q_rad: self.state.q.as_slice(),
             dq_rad_per_s: self.state.dq.as_slice(),
             q_reference_rad: self.reference.q.as_slice(),
@@ -236,9 +267,7 @@ impl Run {
             world_from_object_expected: reference.world_from_object_expected,
             tool_force_n: self.world.force_on_object_n(Party::Tool).norm(),
             slip_m_per_s: on_object.map(|contact| contact.slip_m_per_s.abs()).fold(0.0, f64::max),
-            hits_obstacle: contacts
-                .iter()
-                .any(|contact| contact.parties.iter().any(|party| matches!(party, Party::Obstacle(_)))),
+            hits_obstacle: self.hit_obstacle,
             joint_error_rad: errors.map(|(wanted, is)| (wanted - is).abs()).fold(0.0, f64::max),
             torque_share: shares.fold(0.0, f64::max),
             power_w: torque.iter().zip(self.state.dq.iter()).map(|(torque, speed)| (torque * speed).abs()).sum(),
@@ -250,12 +279,17 @@ impl Run {
         let mut tell = |level: EventLevel, text: String| observer.event(&Event { time_s, level, text });
         if self.phase != Some(reference.phase) {
             self.phase = Some(reference.phase);
-            tell(EventLevel::Info, format!("action {} begins", reference.phase + 1));
+            let name = self.phases.get(reference.phase).map_or("", String::as_str);
+            tell(EventLevel::Info, format!("action {} begins: {name}", reference.phase + 1));
         }
         if self.limited && !self.was_limited {
             tell(EventLevel::Warning, "a joint torque is at its limit".into());
         }
         self.was_limited = self.limited;
+        if reference.gives_up && !self.gave_up {
+            tell(EventLevel::Warning, "the push has run out of time and is given up".into());
+        }
+        self.gave_up = reference.gives_up;
         let touches =
             self.world.contacts().iter().any(|contact| contact.force_on_n(Party::Object, Party::Tool).is_some());
         match self.last_touch_s {
@@ -268,7 +302,8 @@ impl Run {
             }
             Some(last) if !self.lost_contact && time_s - last > GAP_S => {
                 self.lost_contact = true;
-                tell(EventLevel::Info, "the tool has left the object".into());
+                let level = if reference.is_pushing { EventLevel::Warning } else { EventLevel::Info };
+                tell(level, "the tool has left the object".into());
             }
             _ => {}
         }
@@ -276,8 +311,10 @@ impl Run {
 
     /// One control period of physics.
     fn advance(&mut self, time_s: f64) -> Result<(), SimError> {
+        self.hit_obstacle = false;
         for _ in 0..self.steps_per_period {
             self.world.step();
+            self.hit_obstacle |= self.world.contacts().iter().any(ContactForce::involves_obstacle);
             self.arm.read_state(&self.world, &mut self.state);
             let (pose, twist) = (self.world.world_from_object(), self.world.object_twist());
             let object =
@@ -289,6 +326,14 @@ impl Run {
                     return Err(SimError::Diverged { quantity, value: *value, time_s });
                 }
             }
+        }
+        let beyond_m = -self.map.margin_m(&Point2::from(self.world.world_from_object().translation.vector));
+        if beyond_m > self.map.size_m() {
+            return Err(SimError::Diverged {
+                quantity: "the object's way beyond the map, m,".into(),
+                value: beyond_m,
+                time_s,
+            });
         }
         Ok(())
     }

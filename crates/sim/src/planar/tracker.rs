@@ -10,8 +10,8 @@ use skills::tool::Tool;
 
 use crate::sensing::{CameraConfig, Sighting};
 
-/// Beliefs kept for late sightings: at a period of 1 ms more than any camera is late.
-const HISTORY: usize = 1024;
+/// Sightings later than this many standard deviations of the latency are not believed.
+const LATEST_JITTERS: f64 = 6.0;
 /// Uncertainty of the first belief, m: where a task says that the object starts.
 const START_SD_M: f64 = 0.003;
 /// Error of the pushing model per way of the tool: unknown friction and slip.
@@ -65,7 +65,7 @@ impl Tracker {
             belief,
             covariance: Matrix4::from_diagonal(&spread.component_mul(&spread)),
             last_tool: None,
-            history: vec![belief; HISTORY],
+            history: vec![belief; beliefs_kept(camera, period_s)],
             period_s,
             ticks: 0,
             last_exposed_s: f64::NEG_INFINITY,
@@ -88,7 +88,7 @@ impl Tracker {
     pub fn advance(&mut self, time_s: f64, world_from_tool: &Isometry2<f64>, sighting: Option<&Sighting>) {
         self.predict(world_from_tool);
         self.ticks += 1;
-        let slot = self.ticks % HISTORY;
+        let slot = self.ticks % self.history.len();
         if let Some(belief) = self.history.get_mut(slot) {
             *belief = self.belief;
         }
@@ -145,8 +145,12 @@ impl Tracker {
 
     /// Corrects the belief, and all beliefs since the exposure, by what a sighting shows.
     fn correct(&mut self, time_s: f64, sighting: &Sighting) {
-        let age = ((time_s - sighting.exposed_s) / self.period_s).round().clamp(0.0, (HISTORY - 1) as f64) as usize;
-        let slot = (self.ticks + HISTORY - age.min(self.ticks)) % HISTORY;
+        let age = ((time_s - sighting.exposed_s) / self.period_s).round().max(0.0) as usize;
+        let kept = self.history.len();
+        if age >= kept {
+            return;
+        }
+        let slot = (self.ticks + kept - age.min(self.ticks)) % kept;
         let Some(then) = self.history.get(slot) else { return };
         let expected = Vector2::new(then.x + then.z, then.y + then.w);
         let surprise = sighting.world_from_object.translation.vector - expected;
@@ -165,6 +169,12 @@ impl Tracker {
             *belief += shift;
         }
     }
+}
+
+/// Beliefs that late sightings are compared with: one per period, for as long as a frame may be on its way.
+fn beliefs_kept(camera: &CameraConfig, period_s: f64) -> usize {
+    // one frame may wait for the next period, and one belief is the present
+    ((camera.latency_s + LATEST_JITTERS * camera.jitter_s + 1.0 / camera.rate_hz) / period_s).ceil() as usize + 2
 }
 
 /// Errors of the pushing model are alike over this way, m.

@@ -95,6 +95,8 @@ pub struct Camera {
     /// Frames on their way, with the time of their arrival.
     on_the_way: VecDeque<(f64, Sighting)>,
     latest: Option<Sighting>,
+    /// Most frames that can be on their way.
+    capacity: usize,
 }
 
 impl Camera {
@@ -110,8 +112,16 @@ impl Camera {
             random,
             next_exposure_s: 0.0,
             on_the_way: VecDeque::with_capacity(capacity),
+            capacity,
             latest: None,
         }
+    }
+
+    /// Sets the clock back to zero: frames on their way are lost, the errors go on.
+    pub fn begin_anew(&mut self) {
+        self.next_exposure_s = 0.0;
+        self.on_the_way.clear();
+        self.latest = None;
     }
 
     /// Lets time advance to `time_s` with the object at `world_from_object`; returns the newest frame that has arrived.
@@ -136,7 +146,7 @@ impl Camera {
         let turn = noise(self.config.angle_noise_rad);
         let delay = (self.config.latency_s + noise(self.config.jitter_s)).max(0.0);
         let lost = self.random.random_bool(self.config.drop_out);
-        if lost || self.on_the_way.len() == self.on_the_way.capacity() {
+        if lost || self.on_the_way.len() == self.capacity {
             return;
         }
         let seen =

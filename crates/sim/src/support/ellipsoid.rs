@@ -48,6 +48,9 @@ impl SupportLaw for Ellipsoid {
     /// Solves (|v|/(S+d))² + (c w/(S+e))² = 1 for the remaining speed S > 0, d = μ g dt, e = d c² m/I.
     fn brake(&self, twist: &Vector3<f64>, _angle_rad: f64, dt: f64) -> Vector3<f64> {
         let d = self.deceleration_m_per_s2 * dt;
+        if d <= 0.0 {
+            return *twist;
+        }
         let e = d * self.length_m * self.length_m / self.inertia_per_mass_m2;
         let slide = twist.x.hypot(twist.y);
         let spin = self.length_m * twist.z.abs();
@@ -95,6 +98,15 @@ mod tests {
         let next = disc().brake(&Vector3::new(0.3, 0.0, 0.0), 0.0, 0.001);
         assert_relative_eq!(next.x, 0.3 - 0.25 * 9.81 * 0.001, epsilon = 1e-12);
         assert_eq!(disc().brake(&Vector3::new(0.002, 0.0, 0.0), 0.0, 0.001), Vector3::zeros());
+    }
+
+    #[test]
+    fn a_frictionless_table_changes_nothing() {
+        let ice = Ellipsoid::new(&Outline::Disc { radius_m: 0.012 }, 0.0054, 0.0);
+        for twist in [Vector3::zeros(), Vector3::new(0.1, -0.2, 3.0)] {
+            assert_eq!(ice.brake(&twist, 0.0, 0.001), twist);
+            assert_eq!(ice.wrench(&twist, 0.0), Vector3::zeros());
+        }
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub struct SupportPoints {
     length_m: f64,
 }
 
-/// Sliding speed below which a point's friction grows linearly with its speed, m/s: a hundredth of what one step removes.
+/// Sliding speed below which a point's friction grows linearly with its speed, as a share of what one step removes.
 const SMOOTHING_PER_STEP: f64 = 0.01;
 /// Below this multiple of the smoothing speed a motion is rest: friction that is not yet saturated would let it creep.
 const REST_RATIO: f64 = 10.0;
@@ -73,6 +73,9 @@ impl SupportLaw for SupportPoints {
     /// Damped Newton on D (t⁺ − t) + μ g dt · direction(t⁺) = 0, D = diag(1, 1, I/m): a strictly convex problem.
     fn brake(&self, twist: &Vector3<f64>, angle_rad: f64, dt: f64) -> Vector3<f64> {
         let removed = self.deceleration_m_per_s2 * dt;
+        if removed <= 0.0 {
+            return *twist;
+        }
         let smooth = SMOOTHING_PER_STEP * removed;
         let inertia = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, self.inertia_per_mass_m2));
         let residual = |t: &Vector3<f64>| {

@@ -5,8 +5,8 @@ use nalgebra::{DVector, Isometry2, Matrix6xX, Vector2, Vector3, Vector6};
 use robot::{JointReference, JointState, Manipulator};
 use sim::controllers::{Controller, Impedance, ImpedanceConfig};
 use sim::planar::{
-    EngineConfig, MapBounds, ObjectConfig, Obstacle, OpenLoop, Party, PlanarArm, PlanarSetup, PlanarWorld, WorldConfig,
-    arm_with_tool, check_reach, simulate,
+    ArmDescription, EngineConfig, MapBounds, ObjectConfig, Obstacle, OpenLoop, Party, PlanarArm, PlanarSetup,
+    PlanarWorld, SceneDescription, WorldConfig, arm_with_tool, check_reach, simulate,
 };
 use sim::random::{Purpose, stream};
 use sim::sensing::{Camera, CameraConfig};
@@ -19,7 +19,7 @@ use super::quasi_static;
 
 const FLANGE: &str = "flange";
 const PERIOD_S: f64 = 0.001;
-const POSTURE: [f64; 3] = [-0.9, 1.8, -0.9];
+pub const POSTURE: [f64; 3] = [-0.9, 1.8, -0.9];
 
 fn stick() -> Tool {
     let shape = SurfaceShape::Face { start_m: [0.006, 0.03], end_m: [-0.006, 0.03] };
@@ -37,7 +37,7 @@ fn stick() -> Tool {
     }
 }
 
-fn model(rotor_inertia: f64) -> Manipulator {
+pub fn model(rotor_inertia: f64) -> Manipulator {
     let arm =
         Manipulator::from_urdf_str(include_str!("../../../../assets/robots/planar_3r.urdf")).expect("a valid file");
     let base = Isometry2::new(Vector2::new(0.0, -0.25), 0.1);
@@ -271,15 +271,27 @@ fn oblique_push_by_the_arm(config: &ImpedanceConfig) -> Vector3<f64> {
         support: SupportModel::Ellipsoid,
     };
     let start = Isometry2::translation(0.0, 0.030 + 0.012);
+    let world = WorldConfig { map, gravity_m_per_s2: 9.81, obstacles: vec![] };
+    let scene = SceneDescription {
+        world: world.clone(),
+        object: object.clone(),
+        tool: face.clone(),
+        arm: ArmDescription::default(),
+        phases: vec!["push".into()],
+        tool_path_world: vec![],
+        object_path_world: vec![],
+        goal_world: nalgebra::Point2::origin(),
+        control_period_s: PERIOD_S,
+    };
     let setup = PlanarSetup {
-        world: &WorldConfig { map, gravity_m_per_s2: 9.81, obstacles: vec![] },
+        world: &world,
         object: &object,
         world_from_object: start,
         tool: &face,
         model: &model,
         flange: FLANGE,
         engine: &EngineConfig::default(),
-        control_period_s: PERIOD_S,
+        scene: &scene,
         settle_s: 0.0,
         longest_s: 5.0,
     };

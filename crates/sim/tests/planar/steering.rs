@@ -14,7 +14,7 @@ const RADIUS_M: f64 = 0.012;
 const SPEED_M_PER_S: f64 = 0.02;
 const TICK_S: f64 = 0.001;
 
-fn stick() -> Tool {
+pub fn stick() -> Tool {
     let pieces = vec![
         PlacedOutline {
             shape: Outline::Box { width_m: 0.012, height_m: 0.024 },
@@ -31,7 +31,7 @@ fn stick() -> Tool {
     Tool { name: "stick".into(), description: String::new(), mass_kg: 0.004, friction: 0.3, pieces, surfaces }
 }
 
-fn object() -> ObjectConfig {
+pub fn object() -> ObjectConfig {
     ObjectConfig {
         name: "disc".into(),
         shape: Outline::Disc { radius_m: RADIUS_M },

@@ -1,69 +1,22 @@
-//! The tool's reference while a plan is carried out, open loop or steered by the object that is seen.
+//! A reference that is steered by the object that is seen.
 
-use nalgebra::{Isometry2, Point2, Unit, Vector2};
+use nalgebra::{Isometry2, Unit, Vector2};
 use skills::plan::{Action, ActionKind, Plan, PlanarMotion, Push};
 use skills::pushing::{Steering, SteeringConfig};
 use skills::tool::Tool;
 
-use super::config::ObjectConfig;
-use super::tracker::Tracker;
+use super::settling::Settling;
+use super::{ReferenceSource, ToolReference};
+use crate::planar::config::ObjectConfig;
+use crate::planar::tracker::Tracker;
 use crate::sensing::{CameraConfig, Sighting};
-
-/// Where the tool should be now, and what the plan expects of the object.
-#[derive(Clone, Copy, Debug)]
-pub struct ToolReference {
-    /// Motion of the tool, world frame.
-    pub tool: PlanarMotion,
-    /// Where the plan expects the object.
-    pub world_from_object_expected: Isometry2<f64>,
-    /// Index of the current action.
-    pub phase: usize,
-    /// Whether the plan has come to its end.
-    pub finished: bool,
-}
-
-/// Source of the tool's reference, asked once per control period.
-pub trait ReferenceSource {
-    /// The reference at `time_s`, given the newest sighting of the object; allocates nothing.
-    fn next(&mut self, time_s: f64, sighting: Option<&Sighting>) -> ToolReference;
-}
-
-/// Follows the plan whatever the object does.
-#[derive(Clone, Debug)]
-pub struct OpenLoop<'a> {
-    plan: &'a Plan,
-}
-
-impl<'a> OpenLoop<'a> {
-    /// Follows `plan`.
-    #[must_use]
-    pub fn new(plan: &'a Plan) -> Self {
-        Self { plan }
-    }
-}
-
-impl ReferenceSource for OpenLoop<'_> {
-    fn next(&mut self, time_s: f64, _sighting: Option<&Sighting>) -> ToolReference {
-        let (phase, local_s) = self.plan.due_at(time_s);
-        let action = self.plan.actions().get(phase);
-        let motion = |track: fn(&Action) -> &skills::plan::Track| {
-            action.map(|action| track(action).at(local_s)).unwrap_or_default()
-        };
-        ToolReference {
-            tool: motion(|action| &action.tool),
-            world_from_object_expected: motion(|action| &action.object).pose(),
-            phase,
-            finished: time_s >= self.plan.duration_s(),
-        }
-    }
-}
 
 /// Steers each push by the object that the camera sees, and goes from hold to hold where the object really is.
 ///
 /// Rules. While pushing, the tool's velocity comes from the steering law, fed by a tracker that bridges the camera's
-/// latency with the tool's own known motion; the push ends when the object has come as far along its line as planned,
+/// latency with the tool's own measured motion; the push ends when the object has come as far along its line as planned,
 /// or when it has taken [`ClosedLoopConfig::patience`] times the planned time. Between pushes the planned way is bent to
-/// where the object rests, so that the next hold is taken where it is; the last leg of a plan aims at the goal itself.
+/// where the object rests, so that the next hold is taken where it is; every push aims at its planned end.
 #[derive(Clone, Debug)]
 pub struct ClosedLoop<'a> {
     plan: &'a Plan,
@@ -80,10 +33,14 @@ pub struct ClosedLoop<'a> {
     /// What the current way of the tool must be shifted by at its start, fading to its end.
     start_shift: Vector2<f64>,
     /// What it is shifted by because the object rests elsewhere than planned.
-    object_shift: Vector2<f64>,
+    object_shift: Settling,
     steering: Option<(Push, Steering, Unit<Vector2<f64>>)>,
     /// Time of the plan's action at which the object should be where it is.
     plan_clock_s: f64,
+    /// Whether the current push has come to its end and the tool is stopping.
+    is_over: bool,
+    /// Whether that was for want of time.
+    gives_up: bool,
     finished: bool,
 }
 
@@ -118,7 +75,7 @@ impl<'a> ClosedLoop<'a> {
         let start = first.map(|action| action.tool.start()).unwrap_or_default();
         let expected = first.map(|action| action.object.start()).unwrap_or_default();
         let friction_length_m = object.shape.mean_radius_m();
-        let object_radius_m = inscribed_radius_m(object);
+        let object_radius_m = object.shape.inscribed_radius_m();
         Self {
             tracker: Tracker::new(tool, object_radius_m, friction_length_m, expected.point(), camera, period_s),
             plan,
@@ -131,17 +88,13 @@ impl<'a> ClosedLoop<'a> {
             begun_s: 0.0,
             now: start,
             start_shift: Vector2::zeros(),
-            object_shift: Vector2::zeros(),
+            object_shift: Settling::default(),
             steering: None,
             plan_clock_s: 0.0,
+            is_over: false,
+            gives_up: false,
             finished: false,
         }
-    }
-
-    /// Where the object is believed to be now, world frame.
-    #[must_use]
-    pub fn believed_object_world(&self) -> Point2<f64> {
-        self.tracker.object_world()
     }
 
     fn begin(&mut self, phase: usize, time_s: f64) {
@@ -153,7 +106,9 @@ impl<'a> ClosedLoop<'a> {
         self.begun_s = time_s;
         self.plan_clock_s = 0.0;
         self.start_shift = self.now.position.xy() - action.tool.start().position.xy();
-        self.object_shift = self.shift_for(action);
+        self.object_shift = Settling::at(self.shift_for(action));
+        self.is_over = false;
+        self.gives_up = false;
         self.steering = match action.kind {
             ActionKind::ObjectOperating(push) => self.steer(push),
             ActionKind::ToolFlipping => None,
@@ -195,7 +150,8 @@ impl<'a> ClosedLoop<'a> {
     fn way(&mut self, action: &Action, local_s: f64) -> PlanarMotion {
         // what the camera shows on the way improves where it ends
         let wanted = self.shift_for(action);
-        self.object_shift += (wanted - self.object_shift) * (self.period_s / RETARGET_S).min(1.0);
+        self.object_shift.follow(&wanted, RETARGET_S, self.period_s);
+        let shift = self.object_shift;
         let duration = action.tool.duration_s();
         let r = (local_s / duration).clamp(0.0, 1.0);
         let (blend, rate, bend) = (
@@ -203,19 +159,18 @@ impl<'a> ClosedLoop<'a> {
             skills::time_law::minimum_jerk_first_derivative(r) / duration,
             skills::time_law::minimum_jerk_second_derivative(r) / (duration * duration),
         );
-        let change = self.object_shift - self.start_shift;
+        let change = shift.place - self.start_shift;
         let mut motion = action.tool.at(local_s);
         motion.position += (self.start_shift + change * blend).push(0.0);
-        motion.velocity += (change * rate).push(0.0);
-        motion.acceleration += (change * bend).push(0.0);
+        motion.velocity += (change * rate + shift.rate * blend).push(0.0);
+        motion.acceleration += (change * bend + shift.rate * (2.0 * rate) + shift.pull * blend).push(0.0);
         motion
     }
 
     /// One period of a steered push; true when it has come to its end.
-    fn push(&mut self, action: &Action, local_s: f64) -> bool {
+    fn push(&mut self, action: &Action, local_s: f64, pose: &Isometry2<f64>) -> bool {
         let Some((push, steering, direction)) = &self.steering else { return true };
         let Some(surface) = self.tool.surfaces.get(push.surface) else { return true };
-        let pose = self.now.pose();
         let middle = surface.middle();
         let normal = pose.rotation * middle.normal;
         let object = self.tracker.object_world();
@@ -231,10 +186,12 @@ impl<'a> ClosedLoop<'a> {
         let planned_speed = action.object.at(self.plan_clock_s).velocity.xy().dot(direction);
         let speed = planned_speed.max(usual * SLOWEST_SHARE);
         let command = steering.command(&(pose * middle.point), &normal, &object, speed);
-        let done = left_m <= 0.0 || local_s > planned * self.config.patience;
-        self.approach_velocity(if done { Vector2::zeros() } else { command.velocity_world }, action, local_s);
+        // a late frame does not begin a finished push anew
+        self.gives_up |= local_s > planned * self.config.patience;
+        self.is_over |= left_m <= 0.0 || self.gives_up;
+        self.approach_velocity(if self.is_over { Vector2::zeros() } else { command.velocity_world }, action, local_s);
         // the tool is at rest before the next action begins
-        done && self.now.velocity.norm() < REST_M_PER_S
+        self.is_over && self.now.velocity.norm() < REST_M_PER_S
     }
 
     /// Moves the reference on by one period towards a commanded velocity.
@@ -257,11 +214,11 @@ const RETARGET_S: f64 = 0.15;
 const REST_M_PER_S: f64 = 0.0005;
 
 impl ReferenceSource for ClosedLoop<'_> {
-    fn next(&mut self, time_s: f64, sighting: Option<&Sighting>) -> ToolReference {
+    fn next(&mut self, time_s: f64, world_from_tool: &Isometry2<f64>, sighting: Option<&Sighting>) -> ToolReference {
         if time_s <= 0.0 {
             self.begin(0, time_s);
         }
-        self.tracker.advance(time_s, &self.now.pose(), sighting);
+        self.tracker.advance(time_s, world_from_tool, sighting);
         let local_s = time_s - self.begun_s;
         let plan = self.plan;
         if let Some(action) = plan.actions().get(self.phase).filter(|_| !self.finished) {
@@ -270,7 +227,7 @@ impl ReferenceSource for ClosedLoop<'_> {
                     self.now = self.way(action, local_s);
                     local_s >= action.tool.duration_s()
                 }
-                ActionKind::ObjectOperating(_) => self.push(action, local_s),
+                ActionKind::ObjectOperating(_) => self.push(action, local_s, world_from_tool),
             };
             if over {
                 self.begin(self.phase + 1, time_s);
@@ -284,13 +241,11 @@ impl ReferenceSource for ClosedLoop<'_> {
         ToolReference {
             tool: self.now,
             world_from_object_expected: expected.pose(),
+            object_believed_world: Some(self.tracker.object_world()),
             phase: self.phase,
+            is_pushing: self.steering.is_some(),
+            gives_up: self.gives_up,
             finished: self.finished,
         }
     }
-}
-
-/// Distance from the object's center to its nearest side, m.
-fn inscribed_radius_m(object: &ObjectConfig) -> f64 {
-    -object.shape.signed_distance_m(&object.shape.centroid())
 }
