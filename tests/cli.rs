@@ -1,5 +1,7 @@
 //! The built program: help, lists, checks, runs, and what they leave on disk.
 
+#![allow(clippy::panic, reason = "helpers stop at the first surprise too")]
+
 mod program;
 
 use std::fs;
@@ -31,6 +33,10 @@ fn help_teaches() {
     for (arguments, parts) in [
         (&["--help"][..], &["Examples:", "wield run scenarios/push_stick.toml", "Exit codes:", "WIELD_ASSETS"][..]),
         (&["run", "--help"], &["outcome.json", "scenario.toml", "--trials", "--min-success", "Exit codes"]),
+        (
+            &["demonstrate", "--help"],
+            &["demonstrations.json", "time_s, tool_x_m", "assets = [", "Examples:", "Exit codes"],
+        ),
         (&["--version"], &["wield "]),
     ] {
         let output = wield(folder.path(), arguments);
@@ -58,6 +64,10 @@ fn wrong_usage_is_bad_input() {
         &["run", &file, "--no-record", "--record", "x.rrd"],
         &["run", &file, "--trials", "2", "--record", "x.rrd"],
         &["run", &file, "--assets", "nowhere"],
+        &["demonstrate"],
+        &["demonstrate", &file, "--count", "0"],
+        &["demonstrate", &file, "--count", "1001"],
+        &["demonstrate", &file, "--json", "--quiet"],
         &["list", "planets"],
     ] {
         let output = wield(folder.path(), arguments);
@@ -80,6 +90,9 @@ fn list_names_what_there_is() {
         "robots:",
         "tasks:",
         "push",
+        "demonstrations:",
+        "push_stick_5",
+        "poses of the tool",
     ] {
         assert!(all.contains(part), "{part:?} is missing in:\n{all}");
     }
@@ -117,13 +130,65 @@ fn a_run_repeats_itself_byte_by_byte_from_what_it_left() {
     for part in ["push_stick with seed 3", "measure", "limit", "time:", "results: runs/push_stick/seed-3"] {
         assert!(told.contains(part), "{part:?} is missing in:\n{told}");
     }
-    let left = folder.path().join("runs/push_stick/seed-3");
-    fs::copy(left.join("scenario.toml"), folder.path().join("push_stick.toml")).unwrap();
-    let second = wield(folder.path(), &["run", "push_stick.toml", "--no-record", "--json", "--out", "again"]);
+    let left = "runs/push_stick/seed-3/scenario.toml";
+    let second = wield(folder.path(), &["run", left, "--no-record", "--json", "--out", "again"]);
     assert_eq!(second.status.code(), first.status.code(), "{}", stderr(&second));
-    let outcome = fs::read_to_string(left.join("outcome.json")).unwrap();
-    assert_eq!(fs::read_to_string(folder.path().join("again/seed-3/outcome.json")).unwrap(), outcome);
+    let read = |file: &str| fs::read_to_string(folder.path().join(file)).unwrap();
+    let outcome = read("runs/push_stick/seed-3/outcome.json");
+    assert_eq!(read("again/seed-3/outcome.json"), outcome);
+    assert_eq!(read("again/seed-3/scenario.toml"), read(left), "what a repeated run leaves repeats it again");
     assert_eq!(stdout(&second), outcome, "--json prints what is written");
+}
+
+/// Runs the shipped scenario with parts of its text replaced; returns how it ended and its outcome.
+fn run_changed(changes: &[(&str, &str)]) -> (Option<i32>, serde_json::Value) {
+    let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("{error}"));
+    let text = changes.iter().fold(program::shipped(), |text, (from, to)| program::replaced(&text, from, to));
+    assert!(fs::write(folder.path().join("a.toml"), text).is_ok());
+    let output = wield(folder.path(), &["run", "a.toml", "--no-record"]);
+    let outcome = fs::read_to_string(folder.path().join("runs/a/seed-1/outcome.json")).unwrap_or_default();
+    let outcome = serde_json::from_str(&outcome).unwrap_or_else(|error| panic!("{error}: {}", stderr(&output)));
+    (output.status.code(), outcome)
+}
+
+/// Asserts that nothing was simulated, and that all `parts` stand in the one failure.
+fn assert_infeasible(outcome: &serde_json::Value, parts: &[&str]) {
+    assert_eq!((&outcome["success"], &outcome["trajectory_digest"]), (&false.into(), &"".into()));
+    assert_eq!(outcome["measures"].as_array().map(Vec::len), Some(0), "nothing was simulated");
+    let failures = outcome["failures"].as_array().map_or(&[][..], Vec::as_slice);
+    let reason = failures.first().and_then(|reason| reason.as_str()).unwrap_or_default();
+    assert!(failures.len() == 1 && parts.iter().all(|part| reason.contains(part)), "{failures:?}");
+}
+
+#[test]
+fn an_open_loop_run_is_judged_like_any_other() {
+    let (code, outcome) = run_changed(&[("mode = \"closed_loop\"", "mode = \"open_loop\"")]);
+    let measures = outcome["measures"].as_array().unwrap();
+    let judged: Vec<bool> = measures.iter().filter_map(|measure| measure["passed"].as_bool()).collect();
+    assert!(judged.len() >= 3, "{measures:?}");
+    let success = outcome["success"].as_bool().unwrap();
+    assert_eq!(success, judged.iter().all(|passed| *passed));
+    assert_eq!(success, outcome["failures"].as_array().unwrap().is_empty());
+    assert_eq!(code, Some(if success { 0 } else { 1 }));
+    assert_eq!(outcome["trajectory_digest"].as_str().map(str::is_empty), Some(false));
+}
+
+#[test]
+fn a_goal_that_would_need_a_pull_is_an_outcome_without_a_simulation() {
+    // the goal lies 10 mm to the right of the start, but the side of the stick pushes to the left
+    let (code, outcome) = run_changed(&[("goal_m = [-0.055, 0.125]", "goal_m = [0.075, 0.125]")]);
+    assert_eq!(code, Some(1));
+    assert_infeasible(&outcome, &["the surface 'side'", "cannot pull"]);
+}
+
+#[test]
+fn a_goal_out_of_reach_is_an_outcome_that_names_time_and_joint_or_distance() {
+    let wide = ("max_m = [0.09, 0.18]", "max_m = [0.09, 1.18]");
+    let (code, outcome) = run_changed(&[wide, ("goal_m = [-0.055, 0.125]", "goal_m = [-0.055, 0.9]")]);
+    assert_eq!(code, Some(1));
+    assert_infeasible(&outcome, &["s of the plan"]);
+    let reason = outcome["failures"][0].as_str().unwrap();
+    assert!(reason.contains("joint") || reason.contains(" m "), "{reason}");
 }
 
 #[test]

@@ -214,7 +214,7 @@ fn a_mistake_in_a_tool_points_into_the_tools_file() {
     fs::write(&tool, &text).unwrap();
     fs::write(folder.path().join("a.toml"), shipped()).unwrap();
     let place = format!("stick.toml:{}", place(&text, "-0.30"));
-    refused(folder.path(), &[&place, "bad value for `friction`", "tool.asset in a.toml:"]);
+    refused(folder.path(), &[&place, "bad value for `friction`", "names this file: `asset` in [tool]"]);
 }
 
 #[test]
@@ -226,6 +226,20 @@ fn a_mistake_in_a_robot_points_into_the_robots_file() {
     fs::write(folder.path().join("a.toml"), shipped()).unwrap();
     let place = format!("planar_3r.urdf:{}", place(&text, "name=\"flange_mount\""));
     refused(folder.path(), &[&place, "the robot cannot be used", "flange"]);
+}
+
+#[test]
+fn a_name_that_no_folder_could_have_is_refused() {
+    let parts = ["bad value for `name` in [scenario]", "expected letters, digits, `_` and `-` only"];
+    refused_change("seed = 1\n", "seed = 1\nname = \"../up\"\n", "\"../up\"", &parts);
+}
+
+#[test]
+fn gains_that_sampling_makes_unstable_are_refused() {
+    let folder = project();
+    let text = replaced(&shipped(), "[10.0, 10.0, 10.0]", "[30.0, 30.0, 30.0]");
+    assert!(fs::write(folder.path().join("a.toml"), text).is_ok());
+    refused(folder.path(), &["controller.impedance.damping_nm_s_per_rad", "expected a ratio below 2", "a.toml"]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ const HELD: &[(&str, &str)] = &[
     ("assets/demonstrations", "Recorded demonstrations, one CSV file each."),
     ("assets/robots", "Arms, as URDF files."),
     ("assets/tools", "Tools: outlines and contact surfaces."),
-    ("crates", "The code, lowest crate last."),
+    ("crates", "The code: each crate uses only those below it."),
     ("docs", "Pictures of this page."),
     ("scenarios", "Experiments, one TOML file each."),
     ("tests", "Tests of the built program and of this tree."),
@@ -87,7 +87,10 @@ fn said(project: &Path, folder: &str) -> String {
     let text = candidates.iter().find_map(|path| fs::read_to_string(project.join(path)).ok());
     let text = text.unwrap_or_else(|| panic!("{folder}/ has no module: expected one of {}", candidates.join(", ")));
     let paragraph = text.lines().map_while(|line| line.strip_prefix("//! ")).collect::<Vec<_>>().join(" ");
-    paragraph.split_once(". ").map_or(paragraph.clone(), |(first, _)| format!("{first}."))
+    // a sentence ends where the next one begins with a capital: `Eq. (1)` does not end one
+    let stops = paragraph.match_indices(". ").map(|(at, _)| at + 1);
+    let end = stops.into_iter().find(|end| paragraph[end + 1..].starts_with(char::is_uppercase));
+    paragraph[..end.unwrap_or(paragraph.len())].replace(['[', ']', '`'], "")
 }
 
 /// Names of the folders in `folder` that hold a file, sorted; hidden ones and what builds and runs leave are not part of the tree.

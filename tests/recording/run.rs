@@ -103,6 +103,7 @@ fn play_step(observer: &mut impl Observer, step: u64) {
         world_from_tool_reference: Isometry2::new(tool.translation.vector + Vector2::new(0.0004 * wave, 0.0002), 0.0),
         world_from_object: Isometry2::new(object.coords, 0.3 * time_s),
         world_from_object_expected: Isometry2::new(object.coords + Vector2::new(0.0, 0.001), 0.0),
+        object_believed_world: None,
         world_from_object_seen: (time_s > 0.1)
             .then(|| Isometry2::new(object.coords + Vector2::new(0.0008, 0.0006) * wave, 0.0)),
         q_rad: &q,

@@ -12,7 +12,7 @@ pub const OUTCOME_SCHEMA: &str = "wield.outcome/1";
 pub struct Outcome {
     /// Version of this layout: [`OUTCOME_SCHEMA`].
     pub schema: String,
-    /// Name of the scenario: its file's name without the ending.
+    /// Name of the scenario: as it states it, or its file's name without the ending.
     pub scenario: String,
     /// Kind of the task.
     pub task: String,
@@ -24,11 +24,11 @@ pub struct Outcome {
     pub success: bool,
     /// What went wrong, one sentence per failure; empty on success.
     pub failures: Vec<String>,
-    /// The measures.
+    /// The measures; none if nothing was simulated.
     pub measures: Vec<Measure>,
     /// Remarks on demonstrations, controller and plan that a reader should know.
     pub notes: Vec<String>,
-    /// Digest of the whole state trajectory, every time step: equal digests, equal runs.
+    /// Digest of the whole state trajectory, every time step: equal digests, equal runs. Empty if nothing was simulated.
     pub trajectory_digest: String,
 }
 

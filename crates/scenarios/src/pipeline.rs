@@ -6,7 +6,7 @@ use sim::planar::Observer;
 
 use crate::outcome::Outcome;
 use crate::scenario::ResolvedScenario;
-use crate::tasks::{StageError, Task, dispatch};
+use crate::tasks::{ShownTrial, StageError, Task, dispatch, show};
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
@@ -45,6 +45,30 @@ pub fn run(
     progress: Progress<'_>,
 ) -> Result<Report, RunError> {
     dispatch(scenario, seed, observer, progress)
+}
+
+/// Lets the synthetic human of a scenario show its task until `count` trials succeeded, as many as the scenario wants if
+/// absent. Every trial, failed ones too, is handed to `each`, whose error ends the show.
+///
+/// Returns why fewer trials succeeded than wanted, if so.
+///
+/// # Errors
+/// A [`RunError`] if there is no synthetic human, if the physics broke down, or if `each` fails.
+pub fn demonstrate(
+    scenario: &ResolvedScenario,
+    seed: u64,
+    count: Option<usize>,
+    progress: Progress<'_>,
+    each: &mut dyn FnMut(ShownTrial) -> Result<(), String>,
+) -> Result<Option<String>, RunError> {
+    const STAGE: &str = "demonstrate";
+    progress(STAGE, None);
+    match show(scenario, seed, count, progress, &mut |trial| each(trial).map_err(StageError::Broken)) {
+        Ok(()) => Ok(None),
+        Err(StageError::Infeasible(reason)) => Ok(Some(reason)),
+        Err(StageError::Input(reason)) => Err(RunError { stage: STAGE, reason, is_input: true }),
+        Err(StageError::Broken(reason)) => Err(RunError { stage: STAGE, reason, is_input: false }),
+    }
 }
 
 /// Runs one task's five verbs.

@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::outcome::{Limit, Measure, Outcome};
 use crate::pipeline::Report;
+use crate::tasks::DemonstrationsReport;
 use crate::trials::{Summary, Trial, TrialsReport};
 
 /// Tables are fitted to terminals of at least this many columns.
@@ -22,8 +23,16 @@ pub fn json<T: Serialize>(result: &T) -> Result<String, serde_json::Error> {
 #[must_use]
 pub fn run_text(report: &Report) -> String {
     let outcome = &report.outcome;
-    let verdict = if outcome.success { "succeeded" } else { "missed its limits" };
-    let mut text = format!("{} with seed {} {verdict}\n{}\n", outcome.scenario, outcome.seed, measures_table(outcome));
+    // a task that cannot be done was not measured
+    let verdict = match (outcome.success, outcome.measures.is_empty()) {
+        (true, _) => "succeeded",
+        (false, false) => "missed its limits",
+        (false, true) => "cannot be done as stated",
+    };
+    let mut text = format!("{} with seed {} {verdict}\n", outcome.scenario, outcome.seed);
+    if !outcome.measures.is_empty() {
+        text += &format!("{}\n", measures_table(outcome));
+    }
     for failure in &outcome.failures {
         text += &format!("failure: {failure}\n");
     }
@@ -49,6 +58,34 @@ pub fn trials_text(report: &TrialsReport) -> String {
     );
     if !report.measures.is_empty() {
         text += &format!("{}\n", summary_table(&report.measures));
+    }
+    text
+}
+
+/// Describes what a synthetic human showed: a line for each trial, and why there are too few successes if so.
+#[must_use]
+pub fn demonstrations_text(report: &DemonstrationsReport) -> String {
+    let header =
+        ["trial", "result", "distance to goal (mm)", "duration (s)", "touches", "renewed holds", "file", "reason"];
+    let mut table = table(header.map(str::to_owned).to_vec());
+    for trial in &report.trials {
+        table.add_row([
+            trial.trial.to_string(),
+            if trial.success { "success" } else { "failed" }.to_owned(),
+            number(trial.goal_error_mm),
+            number(trial.duration_s),
+            trial.touches_s.len().to_string(),
+            trial.renewed_holds.to_string(),
+            trial.file.clone(),
+            trial.failure.clone().unwrap_or_default(),
+        ]);
+    }
+    align_right(&mut table, [0].into_iter().chain(2..6));
+    let (successes, tried) = (report.successes, report.trials.len());
+    let mut text =
+        format!("{table}\n{successes} of {tried} trials of {} with seed {} succeeded\n", report.scenario, report.seed);
+    if let Some(shortage) = &report.shortage {
+        text += &format!("failure: {shortage}\n");
     }
     text
 }
@@ -211,6 +248,13 @@ mod tests {
             let squeezed = text.split_whitespace().collect::<Vec<_>>().join(" ");
             assert!(squeezed.contains(&part.split_whitespace().collect::<Vec<_>>().join(" ")), "{part}\n{text}");
         }
+    }
+
+    #[test]
+    fn a_task_that_cannot_be_done_is_told_without_a_table() {
+        let Report { outcome, timings_s, simulated_s } = report();
+        let text = run_text(&Report { outcome: Outcome { measures: vec![], ..outcome }, timings_s, simulated_s });
+        assert!(text.starts_with("push with seed 7 cannot be done as stated\nfailure: the object rests"), "{text}");
     }
 
     #[test]

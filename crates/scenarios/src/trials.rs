@@ -44,7 +44,7 @@ pub struct Trial {
     pub measures: Vec<Measure>,
     /// What went wrong, one sentence per failure; empty on success.
     pub failures: Vec<String>,
-    /// Digest of the state trajectory; `null` without an outcome.
+    /// Digest of the state trajectory; `null` if nothing was simulated to its end.
     pub trajectory_digest: Option<String>,
 }
 
@@ -103,7 +103,7 @@ impl Trial {
             status: if outcome.success { Status::Success } else { Status::Missed },
             measures: outcome.measures.iter().filter(|measure| measure.limit.is_some()).cloned().collect(),
             failures: outcome.failures.clone(),
-            trajectory_digest: Some(outcome.trajectory_digest.clone()),
+            trajectory_digest: Some(outcome.trajectory_digest.clone()).filter(|digest| !digest.is_empty()),
         }
     }
 

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::{Exit, assets_for, say, say_error};
 use crate::assets::{AssetKind, Assets, stems};
-use crate::scenario::{title, tool_description};
+use crate::scenario::{demonstration_description, title, tool_description};
 use crate::tasks::TASKS;
 
 /// Options of `wield list`.
@@ -101,10 +101,7 @@ fn robot(file: &Path) -> String {
 }
 
 fn demonstration(file: &Path) -> String {
-    match std::fs::read_to_string(file) {
-        Ok(text) => format!("{} lines", text.lines().count()),
-        Err(error) => format!("(broken: {error})"),
-    }
+    demonstration_description(file).unwrap_or_else(|problem| first_line(Some(&problem)))
 }
 
 fn first_line(problem: Option<&crate::diagnostic::Diagnostic>) -> String {

@@ -1,6 +1,7 @@
 //! The command line: verbs, their options, exit codes.
 
 mod check;
+mod demonstrate;
 mod list;
 mod observe;
 mod panics;
@@ -13,21 +14,32 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use serde::Serialize;
 
 use crate::assets::Assets;
 use crate::diagnostic::{Diagnostic, color_wanted};
+use crate::files::{prepare_folder, write_whole};
+use crate::report::json;
+use crate::scenario::{ResolvedScenario, load};
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
     /// Everything that was asked for succeeded.
     Success,
-    /// A task missed its limits.
+    /// A task missed its limits, or too few trials succeeded.
     Missed,
     /// The input was bad; nothing was run and nothing written.
     BadInput,
     /// A run crashed or diverged, or its result could not be written.
     Crashed,
+}
+
+impl Exit {
+    /// This ending, or [`Exit::Missed`] if all went well but the verdict is no `success`.
+    fn unless_missed(self, success: bool) -> Self {
+        if self == Self::Success && !success { Self::Missed } else { self }
+    }
 }
 
 impl From<Exit> for ExitCode {
@@ -47,10 +59,11 @@ Examples:
   wield check scenarios/*.toml                     find every mistake, run nothing
   wield run scenarios/push_stick.toml              run it; results go to runs/push_stick/seed-1/
   wield run scenarios/push_stick.toml --trials 20  seeds 1 to 20 in parallel, with the success rate
+  wield demonstrate scenarios/push_stick.toml      only what the synthetic human shows, as CSV files
 
 Exit codes:
   0  success
-  1  a task missed its limits
+  1  a task missed its limits, or too few trials succeeded
   2  bad input: nothing was run, nothing was written
   3  a run crashed or diverged
 
@@ -77,6 +90,9 @@ enum Verb {
     /// Run a scenario, once or under several seeds
     #[command(after_long_help = run::AFTER_HELP)]
     Run(run::RunArguments),
+    /// Let a scenario's synthetic human show the task, and keep the demonstrations as CSV files
+    #[command(after_long_help = demonstrate::AFTER_HELP)]
+    Demonstrate(demonstrate::DemonstrateArguments),
     /// Check scenario files without running them
     Check(check::CheckArguments),
     /// List scenarios, tools, robots, tasks and demonstrations
@@ -98,6 +114,7 @@ pub fn main() -> Exit {
     }
     match arguments.verb {
         Verb::Run(run) => run::execute(&run, assets, crate::pipeline::run),
+        Verb::Demonstrate(demonstrate) => demonstrate::execute(&demonstrate, assets),
         Verb::Check(check) => check::execute(&check, assets),
         Verb::List(list) => list::execute(&list, assets),
     }
@@ -112,6 +129,48 @@ fn usage_exit(usage: &clap::Error) -> Exit {
 
 fn assets_for(explicit: Option<&Path>, scenario: Option<&Path>) -> Assets {
     Assets::find(explicit, scenario)
+}
+
+/// Loads a scenario; says what is wrong with it if that fails.
+fn load_told(file: &Path, assets: Option<&Path>) -> Option<ResolvedScenario> {
+    load(file, &assets_for(assets, Some(file))).map_err(|problems| say_problems(&problems)).ok()
+}
+
+/// Makes a folder for results and returns the folders made on the way; says so if nothing can be written there.
+fn prepare_told(folder: &Path) -> Option<Vec<PathBuf>> {
+    prepare_folder(folder).map_err(|error| say_error(&unwritable(folder, &error, "--out"))).ok()
+}
+
+fn unwritable(path: &Path, error: &io::Error, option: &str) -> String {
+    format!("cannot write to {}: {error}; name another place with {option}", path.display())
+}
+
+/// Folder of a seed in the folder of a scenario's results.
+fn seed_folder(out: &Path, seed: u64) -> PathBuf {
+    out.join(format!("seed-{seed}"))
+}
+
+/// Writes a result to a file as JSON; says so if that fails.
+fn keep_json<T: Serialize>(file: &Path, result: &T) -> Exit {
+    let kept = json(result).map_err(|error| error.to_string());
+    match kept.and_then(|text| write_whole(file, text.as_bytes()).map_err(|error| error.to_string())) {
+        Ok(()) => Exit::Success,
+        Err(reason) => {
+            say_error(&format!("write {}: {reason}", file.display()));
+            Exit::Crashed
+        }
+    }
+}
+
+/// Prints a result as JSON.
+fn say_json<T: Serialize>(result: &T) -> Exit {
+    match json(result) {
+        Ok(text) => say(&text),
+        Err(error) => {
+            say_error(&format!("write JSON: {error}"));
+            Exit::Crashed
+        }
+    }
 }
 
 /// Prints `text` to stdout; a reader that has gone away (`wield list | head`) is no failure.

@@ -6,11 +6,11 @@ use rayon::prelude::*;
 
 use super::observe::{self, Destination, Serving};
 use super::progress::{RunProgress, TrialsProgress};
-use super::seed_run::{Failure, Pipeline, RECORDING, run_seed, seed_folder};
-use super::{Exit, assets_for, say, say_aside, say_error, say_problems};
-use crate::files::{prepare_folder, probe, remove_empty, write_whole};
-use crate::report::{json, run_text, trials_text};
-use crate::scenario::{LARGEST_SEED, ResolvedScenario, load, notes};
+use super::seed_run::{Failure, Pipeline, RECORDING, run_seed};
+use super::{Exit, keep_json, load_told, say, say_aside, say_error, say_json, seed_folder, unwritable};
+use crate::files::{prepare_folder, probe, remove_empty};
+use crate::report::{run_text, trials_text};
+use crate::scenario::{LARGEST_SEED, ResolvedScenario, notes};
 use crate::trials::{Status, Trial, TrialsReport};
 
 pub const AFTER_HELP: &str = "\
@@ -76,13 +76,7 @@ pub struct RunArguments {
 
 /// Loads the scenario, makes sure that results can be written, runs, reports.
 pub fn execute(arguments: &RunArguments, assets: Option<&Path>, pipeline: Pipeline) -> Exit {
-    let scenario = match load(&arguments.file, &assets_for(assets, Some(&arguments.file))) {
-        Ok(scenario) => scenario,
-        Err(problems) => {
-            say_problems(&problems);
-            return Exit::BadInput;
-        }
-    };
+    let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
     let job = match Job::new(arguments, &scenario, pipeline) {
         Ok(job) => job,
         Err(reason) => {
@@ -118,13 +112,10 @@ impl<'a> Job<'a> {
             ));
         }
         let out = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&scenario.name));
-        let unwritable = |path: &Path, error| {
-            format!("cannot write to {}: {error}; name another place with --out or --record", path.display())
-        };
         if let Some(file) = &arguments.record {
-            probe(file).map_err(|error| unwritable(file, error))?;
+            probe(file).map_err(|error| unwritable(file, &error, "--record"))?;
         }
-        let created = prepare_folder(&out).map_err(|error| unwritable(&out, error))?;
+        let created = prepare_folder(&out).map_err(|error| unwritable(&out, &error, "--out"))?;
         Ok(Self { arguments, scenario, pipeline, out, created, first_seed })
     }
 
@@ -151,7 +142,7 @@ impl<'a> Job<'a> {
         };
         finished.warnings.iter().for_each(|warning| say_aside(&format!("warning: {warning}")));
         let written = if self.arguments.json {
-            self.say_json(&finished.report.outcome)
+            say_json(&finished.report.outcome)
         } else if self.arguments.quiet {
             Exit::Success
         } else {
@@ -162,7 +153,7 @@ impl<'a> Job<'a> {
         if let Some(serving) = &finished.serving {
             serve_until_enter(serving);
         }
-        verdict(written, finished.report.outcome.success)
+        written.unless_missed(finished.report.outcome.success)
     }
 
     fn fail(&self, seed: u64, failure: &Failure) -> Exit {
@@ -216,31 +207,18 @@ impl<'a> Job<'a> {
         if let Some(refused) = report.trials.iter().find(|trial| trial.status == Status::Refused) {
             return self.fail(refused.seed, &Failure::Refused(refused.reason()));
         }
-        let file = self.out.join("trials.json");
-        let kept = json(report).map_err(|error| error.to_string());
-        let kept = kept.and_then(|text| write_whole(&file, text.as_bytes()).map_err(|error| error.to_string()));
-        if let Err(reason) = kept {
-            say_error(&format!("write {}: {reason}", file.display()));
-            return Exit::Crashed;
+        let kept = keep_json(&self.out.join("trials.json"), report);
+        if kept != Exit::Success {
+            return kept;
         }
         let written = if self.arguments.json {
-            self.say_json(report)
+            say_json(report)
         } else if self.arguments.quiet {
             Exit::Success
         } else {
             say(&format!("{}results: {}\n", trials_text(report), self.out.display()))
         };
-        if report.any(Status::Crashed) { Exit::Crashed } else { verdict(written, report.success()) }
-    }
-
-    fn say_json<T: serde::Serialize>(&self, result: &T) -> Exit {
-        match json(result) {
-            Ok(text) => say(&text),
-            Err(error) => {
-                say_error(&format!("write JSON: {error}"));
-                Exit::Crashed
-            }
-        }
+        if report.any(Status::Crashed) { Exit::Crashed } else { written.unless_missed(report.success()) }
     }
 }
 
@@ -251,15 +229,6 @@ fn serve_until_enter(serving: &Serving) {
     let mut line = String::new();
     // an input that cannot be read has ended
     let _ = std::io::stdin().read_line(&mut line);
-}
-
-/// The task's verdict, unless it could not be told.
-fn verdict(written: Exit, success: bool) -> Exit {
-    match written {
-        Exit::Success if success => Exit::Success,
-        Exit::Success => Exit::Missed,
-        other => other,
-    }
 }
 
 /// Refuses recordings that this build cannot make, and one file for several trials.

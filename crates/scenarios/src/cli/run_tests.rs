@@ -60,7 +60,7 @@ fn a_run_leaves_its_outcome_and_a_scenario_that_repeats_it() {
     let outcome: Outcome = serde_json::from_str(&fs::read_to_string(folder.join("outcome.json")).unwrap()).unwrap();
     assert_eq!((outcome.seed, outcome.success), (7, true));
     let assets = crate::assets::Assets::at(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets"));
-    let again = load(&folder.join("scenario.toml"), &assets).unwrap();
+    let again = crate::scenario::load(&folder.join("scenario.toml"), &assets).unwrap();
     assert_eq!(again.scenario.scenario.seed, 7);
 }
 

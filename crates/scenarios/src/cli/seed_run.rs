@@ -1,7 +1,7 @@
 //! One seed of a scenario: run it, keep its files in one folder.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use sim::planar::Observer;
 
@@ -78,11 +78,6 @@ pub fn run_seed(
     let outcome = json(&report.outcome).map_err(|error| format!("write {OUTCOME}: {error}"))?;
     write_whole(&folder.join(OUTCOME), outcome.as_bytes()).map_err(unwritable)?;
     Ok(Finished { report, warnings, serving })
-}
-
-/// Folder of a seed.
-pub fn seed_folder(out: &Path, seed: u64) -> PathBuf {
-    out.join(format!("seed-{seed}"))
 }
 
 /// The scenario with every default written out and the seed of the run: a file that gives the same run again.

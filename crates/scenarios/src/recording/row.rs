@@ -17,6 +17,7 @@ pub(super) struct Row {
     pub(super) world_from_object: Isometry2<f64>,
     pub(super) world_from_object_expected: Isometry2<f64>,
     pub(super) world_from_object_seen: Option<Isometry2<f64>>,
+    pub(super) object_believed_world: Option<Point2<f64>>,
     pub(super) q_rad: Vec<f64>,
     pub(super) dq_rad_per_s: Vec<f64>,
     pub(super) q_reference_rad: Vec<f64>,
@@ -44,6 +45,7 @@ impl Row {
             world_from_object: Isometry2::identity(),
             world_from_object_expected: Isometry2::identity(),
             world_from_object_seen: None,
+            object_believed_world: None,
             q_rad: joints(),
             dq_rad_per_s: joints(),
             q_reference_rad: joints(),
@@ -66,6 +68,7 @@ impl Row {
         self.world_from_object = sample.world_from_object;
         self.world_from_object_expected = sample.world_from_object_expected;
         self.world_from_object_seen = sample.world_from_object_seen;
+        self.object_believed_world = sample.object_believed_world;
         replace(&mut self.q_rad, sample.q_rad);
         replace(&mut self.dq_rad_per_s, sample.dq_rad_per_s);
         replace(&mut self.q_reference_rad, sample.q_reference_rad);

@@ -2,11 +2,14 @@
 
 use std::path::Path;
 
+use skills::demonstration::Demonstration;
+
 use super::check::{check_arm, check_places, check_surfaces};
 use super::document::{Node, path};
 use super::draft::{Draft, read};
 use super::explain::Context;
 use super::named::{Reader, field_problem};
+use super::parts::name_of_file;
 use super::source::Source;
 use super::{DemonstrationsConfig, ResolvedScenario, Scenario};
 use crate::assets::Assets;
@@ -47,7 +50,7 @@ fn example() -> Source {
 fn resolve(source: &Source, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let example = example();
     let Draft { value, tree, mut problems } = read::<Scenario>(source, &example);
-    let (Some(scenario), Some(tree)) = (value, tree) else { return Err(problems) };
+    let (Some(mut scenario), Some(tree)) = (value, tree) else { return Err(problems) };
     let context = Context { source, tree: &tree, example: &example };
 
     let refused = scenario.refused_values();
@@ -75,7 +78,7 @@ fn resolve(source: &Source, assets: &Assets) -> Result<ResolvedScenario, Vec<Dia
             arm: Some(arm),
             recorded: Some(recorded),
         } if problems.is_empty() => {
-            let name = source.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let name = scenario.scenario.name.get_or_insert_with(|| name_of_file(&source.file)).clone();
             let source = source.text.to_string();
             Ok(ResolvedScenario { name, scenario, tool, demonstration_tool, arm, recorded, source })
         }
@@ -88,7 +91,7 @@ struct Named {
     tool: Option<skills::tool::Tool>,
     demonstration_tool: Option<skills::tool::Tool>,
     arm: Option<robot::Manipulator>,
-    recorded: Option<Vec<(String, String)>>,
+    recorded: Option<Vec<Demonstration>>,
 }
 
 fn read_named(reader: &mut Reader<'_>, scenario: &Scenario) -> Named {

@@ -24,14 +24,16 @@ use skills::pushing::SteeringConfig;
 use crate::tasks::TaskConfig;
 
 pub use load::{load, notes, title};
-pub(crate) use named::tool_description;
+pub(crate) use named::{demonstration_description, tool_description};
+pub(crate) use parts::MOST_DEMONSTRATIONS;
 pub use parts::{CONTROL_RATE_HZ, LARGEST_SEED};
+pub(crate) use source::Source;
 
-/// One experiment: what is there, what is to be done, how it is learnt, carried out and judged.
+/// One experiment: what is there, what is to be done, how it is learned, carried out and judged.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// Title, description and seed.
+    /// Name, title, description and seed.
     pub scenario: Header,
     /// The table: map, gravity, obstacles.
     pub world: WorldConfig,
@@ -47,7 +49,7 @@ pub struct Scenario {
     pub task: TaskConfig,
     /// Where the demonstrations come from.
     pub demonstrations: DemonstrationsConfig,
-    /// What is learnt from them.
+    /// What is learned from them.
     #[serde(default)]
     pub primitive: PrimitiveConfig,
     /// How the plan is carried out.
@@ -67,10 +69,13 @@ pub struct Scenario {
     pub recording: RecordingConfig,
 }
 
-/// Title, description and seed of a scenario.
+/// Name, title, description and seed of a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
+    /// Name in results and of their folder: letters, digits, `_` and `-`; the file's name without its ending if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// One line for lists and tables.
     pub title: String,
     /// A paragraph for the recording and for readers.
@@ -227,9 +232,9 @@ impl Default for RecordingConfig {
 /// A checked scenario together with everything that it names.
 #[derive(Clone, Debug)]
 pub struct ResolvedScenario {
-    /// Name: the file's name without its ending.
+    /// Name, as the scenario states it, or the file's name without its ending.
     pub name: String,
-    /// The scenario with all defaults filled in.
+    /// The scenario with all defaults filled in, the name too.
     pub scenario: Scenario,
     /// The tool in the hand.
     pub tool: skills::tool::Tool,
@@ -237,8 +242,8 @@ pub struct ResolvedScenario {
     pub demonstration_tool: skills::tool::Tool,
     /// The arm, as its URDF describes it; without tool, mounting or rotor inertia.
     pub arm: robot::Manipulator,
-    /// Text of recorded demonstrations (file name, CSV text), as the scenario names them.
-    pub recorded: Vec<(String, String)>,
+    /// The recorded demonstrations that the scenario names, in its order.
+    pub recorded: Vec<skills::demonstration::Demonstration>,
     /// The scenario file's text, as it was read.
     pub source: String,
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use robot::Manipulator;
+use skills::demonstration::Demonstration;
 use skills::field::FieldError;
 use skills::tool::Tool;
 
@@ -13,6 +14,7 @@ use super::source::Source;
 use crate::assets::{AssetError, AssetKind, Assets};
 use crate::diagnostic::Diagnostic;
 use crate::suggest::{did_you_mean, listed};
+use crate::tasks::read_demonstration;
 
 /// A tool file that shows how keys are written.
 pub(crate) fn example_tool() -> Source {
@@ -46,28 +48,24 @@ impl Reader<'_> {
         self.keep(key, result)
     }
 
-    /// Reads the text of the demonstration `name` that the key at `key` asks for.
-    pub fn demonstration(&mut self, key: &str, name: &str) -> Option<(String, String)> {
+    /// Reads the demonstration `name` that the key at `key` asks for.
+    pub fn demonstration(&mut self, key: &str, name: &str) -> Option<Demonstration> {
         let source = self.source(AssetKind::Demonstration, key, name)?;
-        let file_name = source.file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let result = if source.text.trim().is_empty() {
-            Err(vec![Diagnostic::of_file(&source.file, "the file is empty").expected("a recorded demonstration")])
-        } else {
-            Ok((file_name, source.text.to_string()))
-        };
+        let result = read_demonstration(&source).map_err(|problem| vec![*problem]);
         self.keep(key, result)
     }
 
     /// Keeps a value, or its problems with a remark on who asked for the file.
     fn keep<T>(&mut self, key: &str, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
-        let asked = self.context.problem_at_value(&path(key), "").place;
-        let line = asked.map_or(0, |place| place.line);
-        let remark = format!("{key} in {}:{line} names this file", self.context.source.file.display());
-        result
-            .map_err(|problems| {
-                self.problems.extend(problems.into_iter().map(|problem| problem.help([remark.clone()])))
-            })
-            .ok()
+        let path = path(key);
+        let line = self.context.problem_at_value(&path, "").place.map_or(0, |place| place.line);
+        let remark = format!("{}:{line} names this file: {}", self.context.source.file.display(), key_name(&path));
+        let problems = match result {
+            Ok(value) => return Some(value),
+            Err(problems) => problems,
+        };
+        self.problems.extend(problems.into_iter().map(|problem| problem.help([remark.clone()])));
+        None
     }
 
     fn source(&mut self, kind: AssetKind, key: &str, name: &str) -> Option<Source> {
@@ -114,6 +112,12 @@ pub(crate) fn read_tool(source: &Source) -> Result<Tool, Vec<Diagnostic>> {
 pub(crate) fn tool_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
     let source = Source::read(file).map_err(|problem| vec![*problem])?;
     read_tool(&source).map(|tool| tool.description)
+}
+
+/// Length and rows of a recorded demonstration, for lists.
+pub(crate) fn demonstration_description(file: &Path) -> Result<String, Box<Diagnostic>> {
+    let Demonstration { tool, object, .. } = read_demonstration(&Source::read(file)?)?;
+    Ok(format!("{:.1} s: {} poses of the tool, {} of the object", tool.duration_s(), tool.len(), object.len()))
 }
 
 /// A refused value of a checked struct, at its place.

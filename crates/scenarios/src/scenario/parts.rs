@@ -1,5 +1,7 @@
 //! Checks of each part of a scenario on its own; every part is looked at, whatever is wrong with the others.
 
+use std::path::Path;
+
 use skills::field::{FieldError, finite, not_negative, positive, within};
 
 use super::{DemonstrationsConfig, Header, Limits, RecordingConfig, RobotConfig, Scenario, SyntheticConfig};
@@ -11,7 +13,7 @@ pub const CONTROL_RATE_HZ: f64 = 1000.0;
 pub const LARGEST_SEED: u64 = i64::MAX as u64;
 
 /// More demonstrations than this say nothing new and take hours.
-const MOST_DEMONSTRATIONS: usize = 1000;
+pub(crate) const MOST_DEMONSTRATIONS: usize = 1000;
 
 impl Scenario {
     /// Checks every part on its own, and returns at most one refused value of each.
@@ -40,6 +42,10 @@ impl Scenario {
 
 impl Header {
     fn validate(&self) -> Result<(), FieldError> {
+        if let Some(name) = self.name.as_ref().filter(|name| name.is_empty() || !name.chars().all(is_in_name)) {
+            let found = if name.is_empty() { "an empty text".into() } else { format!("{name:?}") };
+            return Err(FieldError::new("name", found, "letters, digits, `_` and `-` only"));
+        }
         if self.title.trim().is_empty() {
             return Err(FieldError::new("title", "an empty text", "one line that names the experiment"));
         }
@@ -48,6 +54,18 @@ impl Header {
         }
         Ok(())
     }
+}
+
+/// Whether `letter` may stand in a scenario's name, which is also that of a folder.
+fn is_in_name(letter: char) -> bool {
+    letter.is_alphanumeric() || letter == '_' || letter == '-'
+}
+
+/// The name of a scenario that states none: its file's name without ending, `_` for what a name may not hold.
+pub(crate) fn name_of_file(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy();
+    let name: String = stem.chars().map(|letter| if is_in_name(letter) { letter } else { '_' }).collect();
+    if name.is_empty() { "scenario".into() } else { name }
 }
 
 impl RobotConfig {
@@ -101,5 +119,31 @@ impl RecordingConfig {
             expected: format!("{}: the control rate is {CONTROL_RATE_HZ} Hz", error.expected),
             ..error
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn named(name: &str) -> Result<(), FieldError> {
+        let (title, description) = ("a title".to_owned(), String::new());
+        Header { name: Some(name.to_owned()), title, description, seed: 1 }.validate()
+    }
+
+    #[test]
+    fn a_name_is_fit_for_a_folder() {
+        assert!(named("push_L-2").is_ok());
+        for name in ["", "..", "a/b", "a b", "a\nb", "a.b"] {
+            assert_eq!(named(name).unwrap_err().field, "name", "{name:?}");
+        }
+    }
+
+    #[test]
+    fn every_file_gives_a_name() {
+        for (file, name) in [("a/push.toml", "push"), ("a b.v2.toml", "a_b_v2"), (".toml", "_toml"), ("", "scenario")] {
+            assert_eq!(name_of_file(Path::new(file)), name);
+            assert!(named(&name_of_file(Path::new(file))).is_ok());
+        }
     }
 }

@@ -1,22 +1,26 @@
 //! Tasks: what is to be done, and how well it was done. A task is one file (or folder) and its lines here.
 
+mod demonstrations;
 mod push;
 
 use serde::{Deserialize, Serialize};
 use sim::planar::Observer;
 use skills::field::FieldError;
 
+pub use demonstrations::{DEMONSTRATIONS_SCHEMA, DemonstrationTrial, DemonstrationsReport, ShownTrial};
 pub use push::PushConfig;
+pub(crate) use push::read_demonstration;
 
 use crate::outcome::Outcome;
 use crate::pipeline::{Progress, Report, RunError, run_task};
 use crate::scenario::ResolvedScenario;
 
-/// The five verbs of a task; each is a function of what stands before it, the scenario and its seed.
+/// The verbs of a task. Each of the five that make a run is a function of what stands before it, the scenario and its
+/// seed.
 pub trait Task {
     /// What the demonstrations gave.
     type Shown;
-    /// What was learnt from them.
+    /// What was learned from them.
     type Skills;
     /// What is to be carried out.
     type Plan;
@@ -28,6 +32,24 @@ pub trait Task {
     /// # Errors
     /// A [`StageError`].
     fn demonstrations(&self, progress: Progress<'_>) -> Result<Self::Shown, StageError>;
+
+    /// Lets a synthetic human show the task until `count` trials succeeded (as many as the scenario wants if absent),
+    /// and hands on every trial.
+    ///
+    /// # Errors
+    /// A [`StageError`]: that of `each`, or that there is no human, or that too few trials succeeded.
+    fn show(
+        &self,
+        count: Option<usize>,
+        progress: Progress<'_>,
+        each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
+    ) -> Result<(), StageError> {
+        let _ = (count, progress, each);
+        Err(StageError::Input(
+            "tasks of this kind have no synthetic human; expected one that has; name files in [demonstrations.recorded]"
+                .into(),
+        ))
+    }
 
     /// Learns skills from them.
     ///
@@ -97,6 +119,19 @@ pub(crate) fn dispatch(
         TaskConfig::Push(config) => {
             run_task(&push::PushTask::new(scenario, config, seed), scenario, seed, observer, progress)
         }
+    }
+}
+
+/// Lets the synthetic human of a scenario show its task.
+pub(crate) fn show(
+    scenario: &ResolvedScenario,
+    seed: u64,
+    count: Option<usize>,
+    progress: Progress<'_>,
+    each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
+) -> Result<(), StageError> {
+    match &scenario.scenario.task {
+        TaskConfig::Push(config) => push::PushTask::new(scenario, config, seed).show(count, progress, each),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What a pushing scenario states about its task.
 
 use serde::{Deserialize, Serialize};
-use skills::field::{FieldError, finite, positive};
+use skills::field::{FieldError, finite, within};
 use skills::tool_use::Orientation;
 
 /// What is to be pushed where.
@@ -34,6 +34,13 @@ pub struct PushConfig {
     pub settle_s: f64,
 }
 
+/// A tool waits on the table or beside it, m.
+const FARTHEST_M: f64 = 10.0;
+/// Speeds that make sense on a table, m/s, and the longest rest after a run, s.
+const SLOWEST_M_PER_S: f64 = 1e-4;
+const FASTEST_M_PER_S: f64 = 2.0;
+const LONGEST_SETTLE_S: f64 = 60.0;
+
 fn default_push_speed() -> f64 {
     0.020
 }
@@ -61,10 +68,11 @@ impl PushConfig {
         finite("start_m", &self.start_m)?;
         finite("start_angle_rad", &[self.start_angle_rad])?;
         finite("goal_m", &self.goal_m)?;
-        finite("home_m", &self.home_m)?;
-        finite("park_m", &self.park_m())?;
-        positive("push_speed_m_per_s", self.push_speed_m_per_s)?;
-        positive("free_speed_m_per_s", self.free_speed_m_per_s)?;
-        positive("settle_s", self.settle_s)
+        for (field, place) in [("home_m", self.home_m), ("park_m", self.park_m())] {
+            place.iter().try_for_each(|value| within(field, *value, -FARTHEST_M, FARTHEST_M))?;
+        }
+        within("push_speed_m_per_s", self.push_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
+        within("free_speed_m_per_s", self.free_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
+        within("settle_s", self.settle_s, 0.0, LONGEST_SETTLE_S)
     }
 }

@@ -16,7 +16,7 @@ const MM: f64 = 1e3;
 const GAP_S: f64 = 0.020;
 /// Time between two looks at clearances and paths, s: 0.5 mm of travel.
 const LOOK_S: f64 = 0.010;
-/// A planned way of the tool may come this near to the object, m: rounding of a learnt way, not a push.
+/// A planned way of the tool may come this near to the object, m: rounding of a learned way, not a push.
 const PLAN_CLEARANCE_M: f64 = -0.0002;
 
 /// Checks that a plan keeps tool and object clear of obstacles, and the tool clear of the object between pushes.
@@ -47,15 +47,15 @@ pub fn check_plan(plan: &Plan, tool: &Tool, object: &ObjectConfig, world: &World
                     place()
                 ));
             }
-            let gap =
-                tool.signed_distance_m(&(pose.inverse() * at.translation.vector).into()) - object.shape.radius_m();
-            if matches!(action.kind, ActionKind::ToolFlipping)
-                && gap < PLAN_CLEARANCE_M
-                && matches!(object.shape, skills::outline::Outline::Disc { .. })
-            {
+            let between = tool
+                .pieces
+                .iter()
+                .filter_map(|piece| separation_m(&piece.shape, &(pose * piece.pose()), &object.shape, &at));
+            let gap = between.fold(f64::INFINITY, f64::min);
+            if matches!(action.kind, ActionKind::ToolFlipping) && gap < PLAN_CLEARANCE_M {
                 let depth = -gap * MM;
                 return Err(format!(
-                    "plan push: the tool would cut {depth:.1} mm into the object {}; expected the learnt way to go round \
+                    "plan push: the tool would cut {depth:.1} mm into the object {}; expected the learned way to go round \
                      it; demonstrate wider ways",
                     place()
                 ));
@@ -105,7 +105,7 @@ fn clearances_m(task: &PushTask<'_>, episode: &Episode) -> (Option<f64>, Option<
 
 fn looks(episode: &Episode) -> impl Iterator<Item = &EpisodeSample> + Clone {
     let stride = (LOOK_S / episode.control_period_s).round().max(1.0) as usize;
-    episode.samples.iter().step_by(stride).chain(episode.samples.last())
+    episode.samples.iter().step_by(stride)
 }
 
 fn place(pose: &Isometry2<f64>) -> Point2<f64> {
@@ -124,7 +124,9 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
     let object_path: Vec<_> = looks(episode).map(|sample| place(&sample.world_from_object)).collect();
     let tool_path: Vec<_> = looks(episode).map(|sample| place(&sample.world_from_tool)).collect();
     let planned: Vec<_> = plan.actions().iter().flat_map(|action| drawn(&action.object)).collect();
-    let deviation = rms_and_max(object_path.iter().filter_map(|point| distance_to_path_m(point, &planned)));
+    let pushed =
+        looks(episode).filter(|sample| is_push(plan, sample.phase)).map(|sample| place(&sample.world_from_object));
+    let deviation = rms_and_max(pushed.filter_map(|point| distance_to_path_m(&point, &planned)));
     let tool_error =
         |sample: &EpisodeSample| (place(&sample.world_from_tool) - place(&sample.world_from_tool_reference)).norm();
     let (tool_rms, tool_max) = rms_and_max(episode.samples.iter().map(tool_error));
@@ -154,19 +156,39 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
             at_least,
         ));
     }
+    let margin =
+        looks(episode).map(|sample| task.scenario.scenario.world.map.margin_m(&place(&sample.world_from_object)));
+    let margin = margin.min_by(f64::total_cmp).map(|margin| margin * MM);
     measures.extend([
-        Measure::reported("duration_s", "duration", episode.duration_s(), "s"),
-        Measure::reported("planned_duration_s", "planned duration", plan.duration_s(), "s"),
+        Measure::judged("collisions", "contacts with obstacles", collisions(episode), "1", Limit::AtMost(0.0)),
+        Measure::judged("map_margin_mm", "object's center inside the map", margin, "mm", Limit::AtLeast(0.0)),
+        Measure::reported("duration_s", "duration, with the rest at the end", episode.duration_s(), "s"),
+        Measure::reported("planned_duration_s", "planned duration, without it", plan.duration_s(), "s"),
         Measure::reported("object_path_mm", "object's path", path_length_m(&object_path) * MM, "mm"),
-        Measure::reported("path_deviation_rms_mm", "object off its planned path, rms", deviation.0 * MM, "mm"),
-        Measure::reported("path_deviation_max_mm", "object off its planned path, largest", deviation.1 * MM, "mm"),
+        Measure::reported(
+            "path_deviation_rms_mm",
+            "object off its planned path in pushes, rms",
+            deviation.0 * MM,
+            "mm",
+        ),
+        Measure::reported(
+            "path_deviation_max_mm",
+            "object off its planned path in pushes, largest",
+            deviation.1 * MM,
+            "mm",
+        ),
         Measure::reported("contact_losses", "contacts lost while pushing", contact.losses, "1"),
         Measure::reported("contact_lost_s", "time without contact while pushing", contact.lost_s, "s"),
         Measure::reported("slip_mm", "sliding on the tool while pushing", contact.slip_m * MM, "mm"),
         Measure::reported("surface_used", "largest share of a surface's usable half", contact.surface_used, "1"),
         Measure::reported("knocked_mm", "object moved between pushes", contact.knocked_m * MM, "mm"),
         Measure::reported("coasting_mm", "object's way after the last contact", contact.coasting_m * MM, "mm"),
-        Measure::reported("peak_force_n", "largest force on the object", largest(|sample| sample.tool_force_n), "N"),
+        Measure::reported(
+            "peak_force_n",
+            "largest force of the tool, one time step",
+            largest(|sample| sample.tool_force_n),
+            "N",
+        ),
         Measure::reported("tool_error_rms_mm", "tool off its reference, rms", tool_rms * MM, "mm"),
         Measure::reported("tool_error_max_mm", "tool off its reference, largest", tool_max * MM, "mm"),
         Measure::reported(
@@ -192,10 +214,21 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
     measures
 }
 
+/// Times that tool or object came to touch an obstacle.
+fn collisions(episode: &Episode) -> f64 {
+    let hits = || episode.samples.iter().map(|sample| sample.hits_obstacle);
+    let first = u8::from(hits().next().unwrap_or(false));
+    hits().zip(hits().skip(1)).filter(|(before, now)| !before && *now).count() as f64 + f64::from(first)
+}
+
+fn is_push(plan: &Plan, phase: usize) -> bool {
+    plan.actions().get(phase).is_some_and(|action| matches!(action.kind, ActionKind::ObjectOperating(_)))
+}
+
 /// Measures of the demonstrations behind a run.
 pub fn demonstration_measures(failed: usize, report: &LearningReport) -> Vec<Measure> {
     vec![
-        Measure::reported("demonstrations_used", "demonstrations learnt from", report.used.len() as f64, "1"),
+        Measure::reported("demonstrations_used", "demonstrations learned from", report.used.len() as f64, "1"),
         Measure::reported("demonstrations_failed", "demonstration trials that failed", failed as f64, "1"),
         Measure::reported("demonstrations_left_out", "demonstrations left out", report.left_out.len() as f64, "1"),
         Measure::reported(

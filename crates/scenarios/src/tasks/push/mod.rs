@@ -1,6 +1,7 @@
 //! Pushing: bring an object over a table to a goal.
 
 mod config;
+mod demonstrations;
 mod judge;
 mod recorded;
 
@@ -8,35 +9,33 @@ use nalgebra::{DVector, Isometry2, Point2, Vector2};
 use robot::Manipulator;
 use sim::SimError;
 use sim::controllers::Controller;
-use sim::human::{DemonstrationTask, Trial, demonstrate};
 use sim::planar::{
     ArmDescription, ClosedLoop, ClosedLoopConfig, Episode, Observer, OpenLoop, PlanarSetup, ReferenceSource,
     SceneDescription, arm_with_tool, check_reach, simulate,
 };
 use sim::random::{Purpose, stream};
 use sim::sensing::Camera;
-use skills::demonstration::Demonstration;
 use skills::plan::{Action, Plan, Track};
 use skills::tool_use::{LearningReport, PushProblem, SkillLibrary};
 
 pub use config::PushConfig;
+pub(crate) use recorded::read as read_demonstration;
 
-use super::{StageError, Task};
+use demonstrations::Shown;
+
+use super::{ShownTrial, StageError, Task};
 use crate::outcome::Outcome;
 use crate::pipeline::Progress;
-use crate::scenario::{DemonstrationsConfig, ExecutionMode, ResolvedScenario, SyntheticConfig};
+use crate::scenario::{ExecutionMode, ResolvedScenario};
 
 /// Time between two motions of a plan, s.
 const PLAN_STEP_S: f64 = 0.002;
-/// Time between two torques, s: the rate of common torque-controlled arms.
-const CONTROL_PERIOD_S: f64 = 0.001;
 /// A run may last this many times its plan.
 const PATIENCE: f64 = 2.0;
-/// Trials that a human may spend on each demonstration wanted.
-const TRIALS_PER_DEMONSTRATION: usize = 4;
-/// Time for which the camera looks at the resting object before the plan is made, s.
-const LOOK_FIRST_S: f64 = 1.0;
-/// Distance between two points of a drawn path, s.
+/// Frames in which the camera looks at the resting object before the plan is made, and the time that it may take, s.
+const FIRST_FRAMES: u32 = 30;
+const LOOK_FIRST_S: f64 = 30.0;
+/// Time between two points of a drawn path, s.
 const DRAWING_STEP_S: f64 = 0.05;
 
 /// A pushing task of one scenario and seed.
@@ -46,15 +45,8 @@ pub struct PushTask<'a> {
     seed: u64,
 }
 
-/// Demonstrations of a push.
-pub struct Shown {
-    demonstrations: Vec<Demonstration>,
-    /// Trials that failed, with the reason.
-    failed: Vec<String>,
-}
-
-/// What was learnt.
-pub struct Learnt {
+/// What was learned.
+pub struct Learned {
     library: SkillLibrary,
     report: LearningReport,
 }
@@ -64,6 +56,8 @@ pub struct Checked {
     plan: Plan,
     model: Manipulator,
     posture: DVector<f64>,
+    /// The camera that has looked at the start.
+    camera: Camera,
     controller_notes: Vec<String>,
 }
 
@@ -73,66 +67,31 @@ impl<'a> PushTask<'a> {
         Self { scenario, config, seed }
     }
 
-    fn synthetic(&self, config: &SyntheticConfig, progress: Progress<'_>) -> Result<Shown, StageError> {
-        let scenario = &self.scenario.scenario;
-        let tool = &self.scenario.demonstration_tool;
-        let surfaces = surface_indices(tool, &config.surfaces)?;
-        let task = DemonstrationTask {
-            world: &scenario.world,
-            object: &scenario.object,
-            tool,
-            surfaces: &surfaces,
-            start_world: config.start_m.into(),
-            goal_world: config.goal_m.into(),
-            home_world: self.config.home_m.into(),
-            park_world: self.config.park_m().into(),
-            human: &config.human,
-            camera: &scenario.camera,
-            engine: &scenario.engine,
-        };
-        let mut shown = Shown { demonstrations: Vec::new(), failed: Vec::new() };
-        for trial in 0..config.count * TRIALS_PER_DEMONSTRATION {
-            if shown.demonstrations.len() == config.count {
-                break;
-            }
-            let Trial { demonstration, failure, .. } = demonstrate(&task, self.seed, trial as u64).map_err(broken)?;
-            match failure {
-                Some(reason) => shown.failed.push(format!("{} {reason}", demonstration.name)),
-                None => shown.demonstrations.push(demonstration),
-            }
-            progress("demonstrate", Some(shown.demonstrations.len() as f64 / config.count as f64));
-        }
-        if shown.demonstrations.len() < config.count {
-            return Err(StageError::Infeasible(format!(
-                "demonstrate: {} of {} demonstrations succeeded in {} trials ({}); expected all; make the task of the \
-                 demonstrations easier or the human more able",
-                shown.demonstrations.len(),
-                config.count,
-                config.count * TRIALS_PER_DEMONSTRATION,
-                shown.failed.join("; "),
-            )));
-        }
-        Ok(shown)
-    }
-
-    /// Where the camera of this run sees the object before anything moves: the mean of its first frames.
-    fn seen_start(&self) -> Point2<f64> {
-        let mut camera = self.camera();
-        let there = self.world_from_object();
-        let (mut sum, mut frames, mut newest_s) = (Vector2::zeros(), 0.0, f64::NEG_INFINITY);
-        for period in 0..(LOOK_FIRST_S / CONTROL_PERIOD_S) as usize {
-            let sighting = camera.look(period as f64 * CONTROL_PERIOD_S, &there);
+    /// Looks at the object before anything moves: the camera, and the mean of its first frames.
+    fn look_first(&self) -> Result<(Camera, Point2<f64>), StageError> {
+        let mut camera = Camera::new(&self.scenario.scenario.camera, stream(self.seed, Purpose::Camera, 0));
+        let (there, period_s) = (self.world_from_object(), self.period_s());
+        let (mut sum, mut frames, mut newest_s) = (Vector2::zeros(), 0, f64::NEG_INFINITY);
+        for period in 0..(LOOK_FIRST_S / period_s) as usize {
+            let sighting = camera.look(period as f64 * period_s, &there);
             if let Some(sighting) = sighting.filter(|sighting| sighting.exposed_s > newest_s) {
                 newest_s = sighting.exposed_s;
                 sum += sighting.world_from_object.translation.vector;
-                frames += 1.0;
+                frames += 1;
+            }
+            if frames == FIRST_FRAMES {
+                camera.begin_anew();
+                return Ok((camera, Point2::from(sum / f64::from(frames))));
             }
         }
-        if frames > 0.0 { Point2::from(sum / frames) } else { self.config.start_m.into() }
+        Err(StageError::Infeasible(format!(
+            "plan push: the camera showed the object in {frames} frames within {LOOK_FIRST_S} s; expected {FIRST_FRAMES}; raise \
+             camera.rate_hz, or lower camera.latency_s or camera.drop_out"
+        )))
     }
 
-    fn camera(&self) -> Camera {
-        Camera::new(&self.scenario.scenario.camera, stream(self.seed, Purpose::Camera, 0))
+    fn period_s(&self) -> f64 {
+        self.scenario.scenario.engine.control_period_s
     }
 
     fn world_from_object(&self) -> Isometry2<f64> {
@@ -157,7 +116,7 @@ impl<'a> PushTask<'a> {
             tool_path_world: path(|action| &action.tool),
             object_path_world: path(|action| &action.object),
             goal_world: self.config.goal_m.into(),
-            control_period_s: CONTROL_PERIOD_S,
+            control_period_s: self.period_s(),
         }
     }
 
@@ -181,7 +140,7 @@ impl<'a> PushTask<'a> {
                     &scenario.object,
                     &scenario.camera,
                     config,
-                    CONTROL_PERIOD_S,
+                    self.period_s(),
                 ))
             }
         }
@@ -190,34 +149,37 @@ impl<'a> PushTask<'a> {
 
 impl Task for PushTask<'_> {
     type Shown = Shown;
-    type Skills = Learnt;
+    type Skills = Learned;
     type Plan = Checked;
     type Episode = Episode;
 
     fn demonstrations(&self, progress: Progress<'_>) -> Result<Shown, StageError> {
-        match &self.scenario.scenario.demonstrations {
-            DemonstrationsConfig::Synthetic(config) => self.synthetic(config, progress),
-            DemonstrationsConfig::Recorded { .. } => {
-                let read = self.scenario.recorded.iter().map(|(name, text)| recorded::read(name, text));
-                let demonstrations = read.collect::<Result<_, _>>().map_err(StageError::Input)?;
-                Ok(Shown { demonstrations, failed: Vec::new() })
-            }
-        }
+        demonstrations::obtain(self, progress)
     }
 
-    fn learn(&self, shown: &Shown) -> Result<Learnt, StageError> {
+    fn show(
+        &self,
+        count: Option<usize>,
+        progress: Progress<'_>,
+        each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
+    ) -> Result<(), StageError> {
+        demonstrations::show(self, count, progress, each)
+    }
+
+    fn learn(&self, shown: &Shown) -> Result<Learned, StageError> {
         let scenario = &self.scenario.scenario;
         let tool = &self.scenario.demonstration_tool;
-        let learnt = SkillLibrary::learn(&scenario.primitive, &shown.demonstrations, tool, &scenario.object.shape);
-        learnt
-            .map(|(library, report)| Learnt { library, report })
+        let learned = SkillLibrary::learn(&scenario.primitive, &shown.demonstrations, tool, &scenario.object.shape);
+        learned
+            .map(|(library, report)| Learned { library, report })
             .map_err(|error| StageError::Infeasible(error.to_string()))
     }
 
-    fn plan(&self, skills: &Learnt) -> Result<Checked, StageError> {
+    fn plan(&self, skills: &Learned) -> Result<Checked, StageError> {
         let scenario = &self.scenario.scenario;
+        let (camera, start_world) = self.look_first()?;
         let problem = PushProblem {
-            start_world: self.seen_start(),
+            start_world,
             goal_world: self.config.goal_m.into(),
             home_world: self.config.home_m.into(),
             park_world: self.config.park_m().into(),
@@ -242,14 +204,15 @@ impl Task for PushTask<'_> {
         let controller = self.controller(model.joint_count())?;
         let mut workspace = model.workspace();
         controller
-            .check_stability(&mut workspace, &posture, CONTROL_PERIOD_S)
+            .check_stability(&mut workspace, &posture, self.period_s())
             .map_err(|error| StageError::Input(error.within("controller").to_string()))?;
-        let controller_notes = controller.describe(&mut workspace, &posture, CONTROL_PERIOD_S);
-        Ok(Checked { plan, model, posture, controller_notes })
+        let controller_notes = controller.describe(&mut workspace, &posture, self.period_s());
+        Ok(Checked { plan, model, posture, camera, controller_notes })
     }
 
     fn simulate(&self, checked: &Checked, observer: &mut dyn Observer) -> Result<Episode, StageError> {
         let scenario = &self.scenario.scenario;
+        let scene = self.scene_description(checked);
         let setup = PlanarSetup {
             world: &scenario.world,
             object: &scenario.object,
@@ -258,18 +221,17 @@ impl Task for PushTask<'_> {
             model: &checked.model,
             flange: &scenario.robot.tool_frame,
             engine: &scenario.engine,
-            control_period_s: CONTROL_PERIOD_S,
+            scene: &scene,
             settle_s: self.config.settle_s,
             longest_s: PATIENCE * checked.plan.duration_s() + self.config.settle_s,
         };
         let mut controller = self.controller(checked.model.joint_count())?;
         let mut source = self.reference_source(&checked.plan);
-        let mut camera = self.camera();
-        observer.begin(&self.scene_description(checked));
+        let mut camera = checked.camera.clone();
         simulate(&setup, &checked.posture, source.as_mut(), controller.as_mut(), &mut camera, observer).map_err(broken)
     }
 
-    fn judge(&self, shown: &Shown, skills: &Learnt, checked: &Checked, episode: &Episode) -> Outcome {
+    fn judge(&self, shown: &Shown, skills: &Learned, checked: &Checked, episode: &Episode) -> Outcome {
         let mut notes = checked.controller_notes.clone();
         notes.extend(shown.failed.iter().map(|failed| format!("demonstrations: {failed}")));
         notes
@@ -287,7 +249,7 @@ impl Task for PushTask<'_> {
 
 fn broken(error: SimError) -> StageError {
     match error {
-        SimError::Field(error) => StageError::Input(error.to_string()),
+        SimError::Field(_) | SimError::Arm { .. } => StageError::Input(error.to_string()),
         other => StageError::Broken(other.to_string()),
     }
 }
@@ -302,22 +264,4 @@ fn infeasible(error: SimError) -> StageError {
 fn drawn(track: &Track) -> Vec<Point2<f64>> {
     let steps = (track.duration_s() / DRAWING_STEP_S).ceil() as usize;
     (0..=steps).map(|step| track.at(step as f64 * DRAWING_STEP_S).point()).collect()
-}
-
-/// Indices of the named surfaces; all of them if none is named.
-fn surface_indices(tool: &skills::tool::Tool, names: &[String]) -> Result<Vec<usize>, StageError> {
-    if names.is_empty() {
-        return Ok((0..tool.surfaces.len()).collect());
-    }
-    let find = |name: &String| {
-        tool.surfaces.iter().position(|surface| surface.name == *name).ok_or_else(|| {
-            let known: Vec<&str> = tool.surfaces.iter().map(|surface| surface.name.as_str()).collect();
-            StageError::Input(format!(
-                "demonstrations.synthetic.surfaces: found '{name}'; expected a surface of the tool '{}': {}",
-                tool.name,
-                known.join(", ")
-            ))
-        })
-    };
-    names.iter().map(find).collect()
 }
