@@ -221,7 +221,7 @@ pub enum RobotError {
     },
     /// A posture that follows a path leaves the joint limits.
     #[error(
-        "follow path: joint `{joint}` would stand at {found}; expected {lower} to {upper}; move the path or the base"
+        "follow path: joint `{joint}` would stand at {found:.4} (rad or m); expected {lower} to {upper}; move the path or the base"
     )]
     OutsideLimits {
         /// The joint.

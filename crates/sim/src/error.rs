@@ -22,7 +22,7 @@ pub enum SimError {
         time_s: f64,
     },
     /// The plan asks for a pose that the arm cannot take.
-    #[error("follow plan: {reason} at {time_s:.3} s of the plan; move the arm's base, the goal or the start")]
+    #[error("{reason}; at {time_s:.3} s of the plan; move the arm's base, the goal or the start")]
     Unreachable {
         /// What is out of reach: pose, distance, joint.
         reason: String,

@@ -29,7 +29,7 @@ To learn from such files, copy them to the folder `demonstrations` of the assets
 
 Examples:
   wield demonstrate scenarios/push_stick.toml
-  wield demonstrate scenarios/push_stick.toml --count 20 --seed 7 --out /tmp/shown
+  wield demonstrate scenarios/push_stick.toml --count 20 --seed 7 --out shown
   wield demonstrate scenarios/push_stick.toml --json | jq '.trials[].goal_error_mm'
 
 Exit codes: 0 success, 1 too few trials succeeded, 2 bad input (nothing written), 3 crashed or diverged.";

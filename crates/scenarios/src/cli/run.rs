@@ -22,7 +22,7 @@ Files, in DIR (by default runs/<scenario> in the current folder):
 
 Examples:
   wield run scenarios/push_stick.toml
-  wield run scenarios/push_stick.toml --seed 7 --out /tmp/push
+  wield run scenarios/push_stick.toml --seed 7 --out results/push
   wield run scenarios/push_stick.toml --trials 50 --min-success 0.9
   wield run scenarios/push_stick.toml --json --no-record | jq .measures
 

@@ -10,18 +10,10 @@ use super::explain::{Context, bad_value, key_name};
 use super::{DemonstrationsConfig, Scenario};
 use crate::diagnostic::Diagnostic;
 use crate::suggest::{did_you_mean, listed};
-use crate::tasks::TaskConfig;
+use crate::tasks::Stand;
 
 /// Points that stand for the circle of a disc where its extent is asked for; a disc itself is handled exactly.
 const ARC_POINTS: usize = 64;
-
-/// A place at which the object is to stand.
-struct Stand {
-    /// Dotted path of the key that names it.
-    key: &'static str,
-    /// Pose of the object there.
-    world_from_object: Isometry2<f64>,
-}
 
 /// Checks places against the map and the obstacles.
 pub(crate) fn check_places(context: Context<'_>, scenario: &Scenario) -> Vec<Diagnostic> {
@@ -54,18 +46,12 @@ pub(crate) fn check_surfaces(context: Context<'_>, scenario: &Scenario, tool: &T
     unknown.map(problem).collect()
 }
 
-/// Every place at which a scenario puts the object. A task's goal leaves the angle open: the start's is taken.
+/// Every place at which a scenario puts the object.
 fn stands(scenario: &Scenario) -> Vec<Stand> {
-    let at = |key, [x, y]: [f64; 2], angle| Stand { key, world_from_object: Isometry2::new(Vector2::new(x, y), angle) };
-    let mut stands = match &scenario.task {
-        TaskConfig::Push(push) => vec![
-            at("task.push.start_m", push.start_m, push.start_angle_rad),
-            at("task.push.goal_m", push.goal_m, push.start_angle_rad),
-        ],
-    };
+    let mut stands = scenario.task.stands();
     if let DemonstrationsConfig::Synthetic(synthetic) = &scenario.demonstrations {
-        stands.push(at("demonstrations.synthetic.start_m", synthetic.start_m, 0.0));
-        stands.push(at("demonstrations.synthetic.goal_m", synthetic.goal_m, 0.0));
+        stands.push(Stand::new("demonstrations.synthetic.start_m", synthetic.start_m, 0.0));
+        stands.push(Stand::new("demonstrations.synthetic.goal_m", synthetic.goal_m, 0.0));
     }
     stands
 }

@@ -87,7 +87,7 @@ mod tests {
 
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
-    #[allow(dead_code)]
+    #[expect(dead_code, reason = "read by its derived traits only")]
     struct Thing {
         name: String,
         shape: Shape,
@@ -97,7 +97,7 @@ mod tests {
 
     #[derive(Debug, Deserialize)]
     #[serde(rename_all = "snake_case", deny_unknown_fields)]
-    #[allow(dead_code)]
+    #[expect(dead_code, reason = "read by its derived traits only")]
     enum Shape {
         Disc { radius_m: f64 },
         Flat,
@@ -105,7 +105,7 @@ mod tests {
 
     #[derive(Debug, Deserialize)]
     #[serde(deny_unknown_fields)]
-    #[allow(dead_code)]
+    #[expect(dead_code, reason = "read by its derived traits only")]
     struct Part {
         place_m: [f64; 2],
         count: u32,

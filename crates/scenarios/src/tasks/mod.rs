@@ -3,6 +3,7 @@
 mod demonstrations;
 mod push;
 
+use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 use sim::planar::Observer;
 use skills::field::FieldError;
@@ -87,6 +88,23 @@ pub enum StageError {
     Broken(String),
 }
 
+/// A place at which the object is to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stand {
+    /// Dotted path of the scenario's key that names it.
+    pub key: &'static str,
+    /// Pose of the object there.
+    pub world_from_object: Isometry2<f64>,
+}
+
+impl Stand {
+    /// The place that `key` names, world frame, m and rad.
+    #[must_use]
+    pub fn new(key: &'static str, position_m: [f64; 2], angle_rad: f64) -> Self {
+        Self { key, world_from_object: Isometry2::new(position_m.into(), angle_rad) }
+    }
+}
+
 /// What is to be done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
@@ -141,6 +159,14 @@ impl TaskConfig {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Push(_) => "push",
+        }
+    }
+
+    /// Where the task puts the object, so that a place inside an obstacle is refused before anything runs.
+    #[must_use]
+    pub fn stands(&self) -> Vec<Stand> {
+        match self {
+            Self::Push(push) => push.stands(),
         }
     }
 

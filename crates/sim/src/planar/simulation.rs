@@ -78,7 +78,7 @@ fn check_speeds(model: &Manipulator, reference: &JointReference, time_s: f64) ->
     for (joint, speed) in model.joints().iter().zip(reference.dq.iter()) {
         if let Some(limit) = joint.limits.velocity.filter(|limit| speed.abs() > *limit) {
             let reason = format!(
-                "joint '{}' would have to turn at {:.2} rad/s; expected at most {limit} rad/s; slow the task down",
+                "follow plan: joint `{}` would have to turn at {:.2} rad/s; expected at most {limit} rad/s; slow the task down",
                 joint.name,
                 speed.abs()
             );

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, within};
 use skills::tool_use::Orientation;
 
+use crate::tasks::Stand;
+
 /// What is to be pushed where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -58,6 +60,13 @@ impl PushConfig {
     #[must_use]
     pub fn park_m(&self) -> [f64; 2] {
         self.park_m.unwrap_or(self.home_m)
+    }
+
+    /// Where the object starts and where it is wanted; the goal leaves the angle open, and the start's is taken.
+    #[must_use]
+    pub fn stands(&self) -> Vec<Stand> {
+        let at = |key, position_m| Stand::new(key, position_m, self.start_angle_rad);
+        vec![at("task.push.start_m", self.start_m), at("task.push.goal_m", self.goal_m)]
     }
 
     /// Checks the numbers on their own.
