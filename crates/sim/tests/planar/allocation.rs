@@ -1,7 +1,7 @@
 //! What a control step allocates: nothing of ours.
 
-use nalgebra::{DVector, Isometry2, Point2, Vector3};
-use robot::{JointReference, JointState};
+use nalgebra::{DVector, Isometry2, Point2, Translation3, Vector3, Vector6};
+use robot::{DifferentialKinematics, FrameMotion, JointReference, JointState, TaskRows};
 use sim::controllers::{Controller, Impedance, ImpedanceConfig};
 use sim::planar::{ClosedLoop, ClosedLoopConfig, ReferenceSource};
 use sim::random::{Purpose, stream};
@@ -29,7 +29,7 @@ fn push() -> Plan {
 }
 
 #[test]
-fn seeing_steering_and_controlling_allocate_nothing() {
+fn seeing_steering_following_and_controlling_allocate_nothing() {
     let plan = push();
     let tool = stick();
     let camera_config = CameraConfig::default();
@@ -43,12 +43,23 @@ fn seeing_steering_and_controlling_allocate_nothing() {
     let posture = DVector::from_column_slice(&POSTURE);
     let (state, reference) = (JointState::at_rest(posture.clone()), JointReference::at_rest(posture));
     let mut torque = DVector::zeros(3);
+    let flange = model.frame("flange").expect("known");
+    let mut follower = DifferentialKinematics::new(&model, flange, TaskRows::PlanarPose).expect("three joints");
+    workspace.set_positions(&state.q).expect("three joints");
+    let start = workspace.base_from_frame(flange);
+    let mut followed = reference.clone();
     let counted = allocation_counter::measure(|| {
         for step in 0..1500 {
             let time_s = f64::from(step) * 0.001;
             let there = Isometry2::translation(0.0, 0.06 + 0.01 * time_s);
             let sighting = camera.look(time_s, &there);
             source.next(time_s, &Isometry2::translation(0.0, 0.018 + 0.01 * time_s), sighting.as_ref());
+            let wanted = FrameMotion {
+                base_from_frame: Translation3::new(0.0, 0.01 * time_s, 0.0) * start,
+                velocity: Vector6::new(0.0, 0.01, 0.0, 0.0, 0.0, 0.0),
+                acceleration: Vector6::zeros(),
+            };
+            follower.follow(&wanted, &mut followed).expect("within reach");
             controller.torque(&mut workspace, &state, &reference, &mut torque).expect("three joints");
         }
     });
