@@ -290,3 +290,7 @@ fn used_share(task: &PushTask<'_>, push: &Push, sample: &EpisodeSample) -> f64 {
     let in_tool = sample.world_from_tool.inverse() * place(&sample.world_from_object);
     (surface.place_m(&in_tool) / (surface.length_m() / 2.0)).abs()
 }
+
+#[cfg(test)]
+#[path = "judge_tests.rs"]
+mod tests;
