@@ -1,4 +1,4 @@
-//! Assets: where tools, robots and demonstrations are found, and that no name leads out of that folder.
+//! Assets: where tools, robots, demonstrations and skills are found, and that no name leads out of that folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// Environment variable that names the folder of assets.
 pub const ASSETS_VARIABLE: &str = "WIELD_ASSETS";
 
-/// The folder in which tools, robots and demonstrations are found by name.
+/// The folder in which tools, robots, demonstrations and skills are found by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assets {
     root: PathBuf,
@@ -21,6 +21,8 @@ pub enum AssetKind {
     Robot,
     /// Recorded demonstrations, `demonstrations/*.csv`.
     Demonstration,
+    /// Learned skills, `skills/*.toml`.
+    Skills,
 }
 
 impl AssetKind {
@@ -31,6 +33,7 @@ impl AssetKind {
             Self::Tool => "tools",
             Self::Robot => "robots",
             Self::Demonstration => "demonstrations",
+            Self::Skills => "skills",
         }
     }
 
@@ -38,7 +41,7 @@ impl AssetKind {
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
-            Self::Tool => "toml",
+            Self::Tool | Self::Skills => "toml",
             Self::Robot => "urdf",
             Self::Demonstration => "csv",
         }
@@ -51,6 +54,7 @@ impl AssetKind {
             Self::Tool => "tool",
             Self::Robot => "robot",
             Self::Demonstration => "demonstration",
+            Self::Skills => "file of skills",
         }
     }
 }

@@ -5,8 +5,8 @@ use std::time::Instant;
 use sim::planar::Observer;
 
 use crate::outcome::Outcome;
-use crate::scenario::ResolvedScenario;
-use crate::tasks::{ShownTrial, StageError, Task, dispatch, show};
+use crate::scenario::{ResolvedScenario, SkillsFile};
+use crate::tasks::{self, ShownTrial, StageError, Task, dispatch, show};
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
@@ -45,6 +45,20 @@ pub fn run(
     progress: Progress<'_>,
 ) -> Result<Report, RunError> {
     dispatch(scenario, seed, observer, progress)
+}
+
+/// Learns what a scenario's demonstrations show, and goes no further.
+///
+/// Returns why nothing could be learned, if so.
+///
+/// # Errors
+/// A [`RunError`] if the scenario is at fault or the physics broke down.
+pub fn learn(
+    scenario: &ResolvedScenario,
+    seed: u64,
+    progress: Progress<'_>,
+) -> Result<Result<SkillsFile, String>, RunError> {
+    tasks::learn(scenario, seed, progress)
 }
 
 /// Lets the synthetic human of a scenario show its task until `count` trials succeeded, as many as the scenario wants if
@@ -96,6 +110,21 @@ pub(crate) fn run_task<T: Task>(
         Err(StageError::Broken(reason)) => return Err(RunError { stage: clock.at, reason, is_input: false }),
     };
     Ok(Report { outcome, timings_s: clock.timings_s, simulated_s })
+}
+
+/// Runs the verbs of a task up to learning.
+pub(crate) fn learn_task<T: Task>(task: &T, progress: Progress<'_>) -> Result<Result<SkillsFile, String>, RunError> {
+    let mut clock = Stages { timings_s: Vec::new(), at: "", progress };
+    let mut verbs = || {
+        let shown = clock.stage("demonstrate", || task.demonstrations(progress))?;
+        clock.stage("learn", || task.save(&task.learn(&shown)?))
+    };
+    match verbs() {
+        Ok(skills) => Ok(Ok(skills)),
+        Err(StageError::Infeasible(reason)) => Ok(Err(reason)),
+        Err(StageError::Input(reason)) => Err(RunError { stage: clock.at, reason, is_input: true }),
+        Err(StageError::Broken(reason)) => Err(RunError { stage: clock.at, reason, is_input: false }),
+    }
 }
 
 /// Times each stage and names it in errors.

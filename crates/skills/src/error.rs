@@ -121,4 +121,17 @@ pub enum SkillError {
         /// Number of bases.
         bases: usize,
     },
+    /// A coupling Δu of Eq. (6) is not a finite number.
+    #[error(
+        "evaluate coupling {coupling}: it makes coordinate {coordinate} of the sum {found}; expected a finite number; \
+         mend or drop that coupling"
+    )]
+    NonFiniteCoupling {
+        /// Index of the coupling in the list that was given, from 0.
+        coupling: usize,
+        /// Coordinate at fault, from 0.
+        coordinate: usize,
+        /// The value found.
+        found: f64,
+    },
 }

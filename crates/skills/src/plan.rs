@@ -1,10 +1,21 @@
 //! Plans: chains of timed actions that say where the tool should be and where the object is expected.
 
+mod condition;
+mod continuity;
+mod refusal;
+mod retiming;
+mod setting;
 mod track;
+mod verification;
 
 use nalgebra::{Point2, Vector2};
 
+pub use condition::{Check, Condition, Moment};
+pub use continuity::{Body, Joint, Jump};
+pub use refusal::{ChainError, Quantity};
+pub use setting::{ChainTolerances, Setting};
 pub use track::{PlanarMotion, Track};
+pub use verification::{ActionReport, ChainReport};
 
 use crate::error::SkillError;
 

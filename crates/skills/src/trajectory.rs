@@ -125,7 +125,9 @@ impl Trajectory {
     pub fn at_smooth(&self, time_s: f64) -> DVector<f64> {
         let Some((row, u)) = self.locate(time_s) else { return self.hold(time_s) };
         let step = self.times_s[row + 1] - self.times_s[row];
-        let slope = |row| slope(&self.times_s, &self.samples, row) * step;
+        let slope = |row| {
+            RowDVector::from_fn(self.dimension(), |_, column| slope(&self.times_s, &self.samples, row, column) * step)
+        };
         let (u2, u3) = (u * u, u * u * u);
         let from = self.samples.row(row) * (2.0 * u3 - 3.0 * u2 + 1.0) + slope(row) * (u3 - 2.0 * u2 + u);
         let to = self.samples.row(row + 1) * (3.0 * u2 - 2.0 * u3) + slope(row + 1) * (u3 - u2);
@@ -233,7 +235,7 @@ impl Trajectory {
     }
 }
 
-fn check_times(times_s: &[f64]) -> Result<(), SkillError> {
+pub(crate) fn check_times(times_s: &[f64]) -> Result<(), SkillError> {
     for (row, time_s) in times_s.iter().copied().enumerate() {
         let previous_s = times_s[row.saturating_sub(1)];
         if !time_s.is_finite() || (row > 0 && time_s <= previous_s) {
@@ -254,24 +256,21 @@ pub(crate) fn check_finite(operation: &'static str, table: &DMatrix<f64>) -> Res
 
 /// Differentiates `samples` (n × d, n ≥ 2) by `times_s` as [`Trajectory::first_derivative`] tells.
 pub(crate) fn differentiate(times_s: &[f64], samples: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut derivative = DMatrix::zeros(samples.nrows(), samples.ncols());
-    for row in 0..samples.nrows() {
-        derivative.row_mut(row).copy_from(&slope(times_s, samples, row));
-    }
-    derivative
+    DMatrix::from_fn(samples.nrows(), samples.ncols(), |row, column| slope(times_s, samples, row, column))
 }
 
 // derivative at `row` of the parabola through it and its neighbors (at an end: through the three outermost rows)
-fn slope(times_s: &[f64], samples: &DMatrix<f64>, row: usize) -> RowDVector<f64> {
+fn slope(times_s: &[f64], samples: &DMatrix<f64>, row: usize, column: usize) -> f64 {
     let last = times_s.len() - 1;
+    let secant =
+        |from: usize| (samples[(from + 1, column)] - samples[(from, column)]) / (times_s[from + 1] - times_s[from]);
     if last == 1 {
-        return (samples.row(1) - samples.row(0)) / (times_s[1] - times_s[0]);
+        return secant(0);
     }
     let middle = row.clamp(1, last - 1);
     let (before, after) = (times_s[middle] - times_s[middle - 1], times_s[middle + 1] - times_s[middle]);
-    let into = (samples.row(middle) - samples.row(middle - 1)) / before;
-    let out = (samples.row(middle + 1) - samples.row(middle)) / after;
-    let curvature = (&out - &into) / (before + after);
+    let (into, out) = (secant(middle - 1), secant(middle));
+    let curvature = (out - into) / (before + after);
     match row {
         row if row < middle => into - curvature * before,
         row if row > middle => out + curvature * after,

@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::{Exit, assets_for, say, say_error};
 use crate::assets::{AssetKind, Assets, stems};
-use crate::scenario::{demonstration_description, title, tool_description};
+use crate::scenario::{demonstration_description, skills_description, title, tool_description};
 use crate::tasks::TASKS;
 
 /// Options of `wield list`.
@@ -30,6 +30,8 @@ enum Listed {
     Tasks,
     /// Recorded demonstrations
     Demonstrations,
+    /// Learned skills
+    Skills,
 }
 
 /// Prints one line for each thing of the kind, or of all kinds under their headings.
@@ -75,6 +77,7 @@ fn entries(kind: Listed, assets: &Assets) -> Vec<(String, String)> {
         Listed::Robots => describe(AssetKind::Robot, robot),
         Listed::Tasks => TASKS.iter().map(|task| (task.name.to_owned(), task.summary.to_owned())).collect(),
         Listed::Demonstrations => describe(AssetKind::Demonstration, demonstration),
+        Listed::Skills => describe(AssetKind::Skills, skills),
     }
 }
 
@@ -102,6 +105,10 @@ fn robot(file: &Path) -> String {
 
 fn demonstration(file: &Path) -> String {
     demonstration_description(file).unwrap_or_else(|problem| first_line(Some(&problem)))
+}
+
+fn skills(file: &Path) -> String {
+    skills_description(file).unwrap_or_else(|problems| first_line(problems.first()))
 }
 
 fn first_line(problem: Option<&crate::diagnostic::Diagnostic>) -> String {

@@ -2,6 +2,7 @@
 
 mod check;
 mod demonstrate;
+mod learn;
 mod list;
 mod observe;
 mod panics;
@@ -67,7 +68,7 @@ Exit codes:
   2  bad input: nothing was run, nothing was written
   3  a run crashed or diverged
 
-Tools, robots and demonstrations are found by name in a folder of assets: --assets DIR, else the environment
+Tools, robots, demonstrations and skills are found by name in a folder of assets: --assets DIR, else the environment
 variable WIELD_ASSETS, else the folder `assets` nearest above the scenario, else nearest above the current folder.";
 
 /// Learn tool use from demonstrations, carry it out in simulated physics, measure how well it went.
@@ -78,7 +79,7 @@ variable WIELD_ASSETS, else the folder `assets` nearest above the scenario, else
 #[derive(Debug, Parser)]
 #[command(name = "wield", version, after_long_help = AFTER_HELP, after_help = "See `wield --help` for examples and exit codes.")]
 struct Arguments {
-    /// Folder of tools, robots and demonstrations
+    /// Folder of tools, robots, demonstrations and skills
     #[arg(long, value_name = "DIR", global = true)]
     assets: Option<PathBuf>,
     #[command(subcommand)]
@@ -93,9 +94,12 @@ enum Verb {
     /// Let a scenario's synthetic human show the task, and keep the demonstrations as CSV files
     #[command(after_long_help = demonstrate::AFTER_HELP)]
     Demonstrate(demonstrate::DemonstrateArguments),
+    /// Learn skills from a scenario's demonstrations, and keep them in a file
+    #[command(after_long_help = learn::AFTER_HELP)]
+    Learn(learn::LearnArguments),
     /// Check scenario files without running them
     Check(check::CheckArguments),
-    /// List scenarios, tools, robots, tasks and demonstrations
+    /// List scenarios, tools, robots, tasks, demonstrations and skills
     List(list::ListArguments),
 }
 
@@ -115,6 +119,7 @@ pub fn main() -> Exit {
     match arguments.verb {
         Verb::Run(run) => run::execute(&run, assets, crate::pipeline::run),
         Verb::Demonstrate(demonstrate) => demonstrate::execute(&demonstrate, assets),
+        Verb::Learn(learn) => learn::execute(&learn, assets),
         Verb::Check(check) => check::execute(&check, assets),
         Verb::List(list) => list::execute(&list, assets),
     }

@@ -11,7 +11,7 @@ use super::explain::Context;
 use super::named::{Reader, field_problem};
 use super::parts::name_of_file;
 use super::source::Source;
-use super::{DemonstrationsConfig, ResolvedScenario, Scenario};
+use super::{DemonstrationsConfig, ResolvedScenario, Scenario, SkillsFile};
 use crate::assets::Assets;
 use crate::diagnostic::Diagnostic;
 
@@ -77,10 +77,11 @@ fn resolve(source: &Source, assets: &Assets) -> Result<ResolvedScenario, Vec<Dia
             demonstration_tool: Some(demonstration_tool),
             arm: Some(arm),
             recorded: Some(recorded),
+            learned: Some(learned),
         } if problems.is_empty() => {
             let name = scenario.scenario.name.get_or_insert_with(|| name_of_file(&source.file)).clone();
             let source = source.text.to_string();
-            Ok(ResolvedScenario { name, scenario, tool, demonstration_tool, arm, recorded, source })
+            Ok(ResolvedScenario { name, scenario, tool, demonstration_tool, arm, recorded, learned, source })
         }
         _ => Err(problems),
     }
@@ -92,6 +93,7 @@ struct Named {
     demonstration_tool: Option<skills::tool::Tool>,
     arm: Option<robot::Manipulator>,
     recorded: Option<Vec<Demonstration>>,
+    learned: Option<Option<SkillsFile>>,
 }
 
 fn read_named(reader: &mut Reader<'_>, scenario: &Scenario) -> Named {
@@ -100,6 +102,12 @@ fn read_named(reader: &mut Reader<'_>, scenario: &Scenario) -> Named {
     let (key, own_tool, names): (_, _, &[String]) = match &scenario.demonstrations {
         DemonstrationsConfig::Synthetic(synthetic) => ("demonstrations.synthetic.tool", &synthetic.tool, &[]),
         DemonstrationsConfig::Recorded { assets, tool } => ("demonstrations.recorded.tool", tool, assets),
+        DemonstrationsConfig::Learned { asset } => {
+            let read = reader.skills("demonstrations.learned.asset", asset);
+            let (demonstration_tool, learned) =
+                read.map_or((None, None), |(tool, file)| (Some(tool), Some(Some(file))));
+            return Named { tool, demonstration_tool, arm, recorded: Some(Vec::new()), learned };
+        }
     };
     let demonstration_tool = match own_tool {
         Some(name) => reader.tool(key, name),
@@ -110,7 +118,7 @@ fn read_named(reader: &mut Reader<'_>, scenario: &Scenario) -> Named {
         .enumerate()
         .map(|(index, name)| reader.demonstration(&format!("demonstrations.recorded.assets.{index}"), name))
         .collect();
-    Named { tool, demonstration_tool, arm, recorded: recorded.into_iter().collect() }
+    Named { tool, demonstration_tool, arm, recorded: recorded.into_iter().collect(), learned: Some(None) }
 }
 
 #[cfg(test)]

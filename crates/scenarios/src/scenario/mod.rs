@@ -8,6 +8,7 @@ mod explain;
 mod load;
 mod named;
 mod parts;
+mod skills_file;
 mod source;
 mod units;
 mod words;
@@ -24,9 +25,10 @@ use skills::pushing::SteeringConfig;
 use crate::tasks::TaskConfig;
 
 pub use load::{load, notes, title};
-pub(crate) use named::{demonstration_description, tool_description};
+pub(crate) use named::{demonstration_description, skills_description, tool_description};
 pub(crate) use parts::MOST_DEMONSTRATIONS;
 pub use parts::{CONTROL_RATE_HZ, LARGEST_SEED};
+pub use skills_file::{Origin, SkillsFile};
 pub(crate) use source::Source;
 
 /// One experiment: what is there, what is to be done, how it is learned, carried out and judged.
@@ -136,6 +138,11 @@ pub enum DemonstrationsConfig {
         #[serde(default)]
         tool: Option<String>,
     },
+    /// None: the skills were learned before, by `wield learn`.
+    Learned {
+        /// Name of a file in `assets/skills`, without its ending.
+        asset: String,
+    },
 }
 
 /// Demonstrations of a synthetic human.
@@ -244,6 +251,21 @@ pub struct ResolvedScenario {
     pub arm: robot::Manipulator,
     /// The recorded demonstrations that the scenario names, in its order.
     pub recorded: Vec<skills::demonstration::Demonstration>,
+    /// The skills that the scenario names instead of demonstrations.
+    pub learned: Option<SkillsFile>,
     /// The scenario file's text, as it was read.
     pub source: String,
+}
+
+impl ResolvedScenario {
+    /// Name of the file of the tool that the demonstrations were or are to be shown with.
+    #[must_use]
+    pub fn demonstration_tool_name(&self) -> &str {
+        let own = match &self.scenario.demonstrations {
+            DemonstrationsConfig::Synthetic(SyntheticConfig { tool, .. })
+            | DemonstrationsConfig::Recorded { tool, .. } => tool.as_deref(),
+            DemonstrationsConfig::Learned { .. } => self.learned.as_ref().map(|file| file.learned.tool.as_str()),
+        };
+        own.unwrap_or(&self.scenario.tool.asset)
+    }
 }

@@ -10,6 +10,7 @@ use skills::tool::Tool;
 use super::document::path;
 use super::draft::{Draft, read};
 use super::explain::{Context, bad_value, key_name};
+use super::skills_file::{self, SkillsFile};
 use super::source::Source;
 use crate::assets::{AssetError, AssetKind, Assets};
 use crate::diagnostic::Diagnostic;
@@ -53,6 +54,19 @@ impl Reader<'_> {
         let source = self.source(AssetKind::Demonstration, key, name)?;
         let result = read_demonstration(&source).map_err(|problem| vec![*problem]);
         self.keep(key, result)
+    }
+
+    /// Reads the skills `name` that the key at `key` asks for, and the tool that they were learned with.
+    pub fn skills(&mut self, key: &str, name: &str) -> Option<(Tool, SkillsFile)> {
+        let source = self.source(AssetKind::Skills, key, name)?;
+        let result = skills_file::read(&source);
+        let file = self.keep(key, result)?;
+        let tool_source = self.source(AssetKind::Tool, key, &file.learned.tool)?;
+        let result = read_tool(&tool_source);
+        let tool = self.keep(key, result)?;
+        let result = skills_file::check(&source, &file, &tool);
+        self.keep(key, result)?;
+        Some((tool, file))
     }
 
     /// Keeps a value, or its problems with a remark on who asked for the file.
@@ -118,6 +132,15 @@ pub(crate) fn tool_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
 pub(crate) fn demonstration_description(file: &Path) -> Result<String, Box<Diagnostic>> {
     let Demonstration { tool, object, .. } = read_demonstration(&Source::read(file)?)?;
     Ok(format!("{:.1} s: {} poses of the tool, {} of the object", tool.duration_s(), tool.len(), object.len()))
+}
+
+/// Origin of learned skills, for lists.
+pub(crate) fn skills_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
+    let source = Source::read(file).map_err(|problem| vec![*problem])?;
+    let SkillsFile { learned, skills, .. } = skills_file::read(&source)?;
+    let shown = learned.demonstrations.len();
+    let pushes = skills.pushes.iter().map(|push| push.surface.as_str()).collect::<Vec<_>>().join(" - ");
+    Ok(format!("{pushes}, with the tool `{}`, from {shown} demonstrations of {}", learned.tool, learned.scenario))
 }
 
 /// A refused value of a checked struct, at its place.

@@ -85,7 +85,7 @@ impl DemonstrationsConfig {
                 "an empty list",
                 "the name of at least one recorded demonstration",
             )),
-            Self::Recorded { .. } => Ok(()),
+            Self::Recorded { .. } | Self::Learned { .. } => Ok(()),
         }
     }
 }

@@ -13,8 +13,8 @@ pub use push::PushConfig;
 pub(crate) use push::read_demonstration;
 
 use crate::outcome::Outcome;
-use crate::pipeline::{Progress, Report, RunError, run_task};
-use crate::scenario::ResolvedScenario;
+use crate::pipeline::{Progress, Report, RunError, learn_task, run_task};
+use crate::scenario::{ResolvedScenario, SkillsFile};
 
 /// The verbs of a task. Each of the five that make a run is a function of what stands before it, the scenario and its
 /// seed.
@@ -57,6 +57,12 @@ pub trait Task {
     /// # Errors
     /// A [`StageError`].
     fn learn(&self, shown: &Self::Shown) -> Result<Self::Skills, StageError>;
+
+    /// Takes down the skills, to be written to a file.
+    ///
+    /// # Errors
+    /// A [`StageError`] if skills of this kind cannot be kept.
+    fn save(&self, skills: &Self::Skills) -> Result<SkillsFile, StageError>;
 
     /// Plans the task with the skills, and checks that the arm can carry the plan out.
     ///
@@ -137,6 +143,17 @@ pub(crate) fn dispatch(
         TaskConfig::Push(config) => {
             run_task(&push::PushTask::new(scenario, config, seed), scenario, seed, observer, progress)
         }
+    }
+}
+
+/// Learns what a scenario's demonstrations show.
+pub(crate) fn learn(
+    scenario: &ResolvedScenario,
+    seed: u64,
+    progress: Progress<'_>,
+) -> Result<Result<SkillsFile, String>, RunError> {
+    match &scenario.scenario.task {
+        TaskConfig::Push(config) => learn_task(&push::PushTask::new(scenario, config, seed), progress),
     }
 }
 

@@ -3,14 +3,21 @@
 //! A further kind is one file with an implementation of [`MovementPrimitive`], and its lines in this one.
 
 mod dmp;
+pub mod generalizing;
+pub mod kernelized;
+pub mod pose;
 mod rollout;
+mod saved;
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-pub use dmp::{Dmp, DmpConfig, DmpForm, DmpStepper};
+pub use dmp::{Dmp, DmpConfig, DmpForm, DmpPair, DmpStepper, SavedDmp, rollout_pair};
+pub use generalizing::{Generalizing, GeneralizingConfig};
+pub use kernelized::{Kernelized, KernelizedConfig};
 pub use rollout::{Rollout, RolloutRequest};
+pub use saved::SavedPrimitive;
 
 use crate::error::SkillError;
 use crate::field::FieldError;
@@ -29,6 +36,9 @@ pub trait MovementPrimitive: fmt::Debug + Send + Sync {
     /// # Errors
     /// If the request has another dimension, a value that is not finite, or a duration or step outside its range.
     fn rollout(&self, request: &RolloutRequest) -> Result<Rollout, SkillError>;
+
+    /// Copies what defines the primitive into plain data; what is restored of it rolls out to the same bits.
+    fn saved(&self) -> SavedPrimitive;
 }
 
 /// Kinds of movement primitive, as a table in a file: `[primitive.dmp]`.
@@ -37,6 +47,10 @@ pub trait MovementPrimitive: fmt::Debug + Send + Sync {
 pub enum PrimitiveConfig {
     /// Dynamic movement primitive, Eqs. (1)–(5).
     Dmp(DmpConfig),
+    /// Kernelized movement primitive.
+    Kernelized(KernelizedConfig),
+    /// Dynamic movement primitives mixed for the task by rules chosen from the demonstrations.
+    Generalizing(GeneralizingConfig),
 }
 
 impl Default for PrimitiveConfig {
@@ -53,6 +67,8 @@ impl PrimitiveConfig {
     pub fn validate(&self) -> Result<(), FieldError> {
         match self {
             Self::Dmp(config) => config.validate().map_err(|error| error.within("dmp")),
+            Self::Kernelized(config) => config.validate().map_err(|error| error.within("kernelized")),
+            Self::Generalizing(config) => config.validate().map_err(|error| error.within("generalizing")),
         }
     }
 
@@ -64,6 +80,8 @@ impl PrimitiveConfig {
         self.validate()?;
         match self {
             Self::Dmp(config) => Ok(Box::new(Dmp::learn(config, demonstrations)?)),
+            Self::Kernelized(config) => Ok(Box::new(Kernelized::learn(config, demonstrations)?)),
+            Self::Generalizing(config) => Ok(Box::new(Generalizing::learn(config, demonstrations)?)),
         }
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use super::{ForcingSamples, Regression};
-use crate::basis::GaussianBasis;
+use crate::basis::{GaussianBasis, NEGLIGIBLE};
 use crate::error::SkillError;
 use crate::field::FieldError;
 
@@ -18,26 +18,28 @@ pub struct Lwr {}
 
 impl Regression for Lwr {
     fn fit(&self, samples: &ForcingSamples, basis: &GaussianBasis) -> Result<DMatrix<f64>, SkillError> {
-        let mut fitted = DMatrix::zeros(basis.count(), samples.targets.ncols());
-        for i in 0..basis.count() {
+        let targets = samples.targets.transpose();
+        let mut fitted = DMatrix::zeros(targets.nrows(), basis.count());
+        for (i, mut fitted) in fitted.column_iter_mut().enumerate() {
+            let weighted = samples.phases.iter().zip(samples.weights.iter()).enumerate();
+            let weighted = weighted.filter(|(_, (_, weight))| **weight > 0.0);
             // relative to the nearest weighted sample, so that a basis between samples does not underflow
-            let nearest = samples.phases.iter().zip(samples.weights.iter());
-            let nearest = nearest.filter(|(_, weight)| **weight > 0.0).map(|(s, _)| basis.exponent(i, *s));
-            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            let nearest = weighted.clone().map(|(_, (s, _))| basis.exponent(i, *s)).fold(f64::INFINITY, f64::min);
             let mut denominator = 0.0;
-            for (m, s) in samples.phases.iter().enumerate() {
-                let activation = samples.weights[m] * (nearest - basis.exponent(i, *s)).exp();
-                if activation > 0.0 {
+            for (m, (s, weight)) in weighted {
+                let beyond = basis.exponent(i, *s) - nearest;
+                if beyond < NEGLIGIBLE {
+                    let activation = weight * (-beyond).exp();
                     denominator += activation * s * s;
-                    fitted.row_mut(i).zip_apply(&samples.targets.row(m), |sum, target| *sum += activation * s * target);
+                    fitted.axpy(activation * s, &targets.column(m), 1.0);
                 }
             }
             if denominator <= 0.0 {
                 return Err(SkillError::Undetermined { samples: samples.phases.len(), bases: basis.count() });
             }
-            fitted.row_mut(i).scale_mut(denominator.recip());
+            fitted /= denominator;
         }
-        Ok(fitted)
+        Ok(fitted.transpose())
     }
 
     fn default_crossing(&self) -> f64 {

@@ -7,12 +7,14 @@
 //! A further kind is one file with an implementation of [`Regression`], and its lines in this one.
 
 mod lwr;
+mod recursive;
 mod ridge;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 pub use lwr::Lwr;
+pub use recursive::{Recursive, RecursiveFit};
 pub use ridge::Ridge;
 
 use crate::basis::GaussianBasis;
@@ -32,8 +34,8 @@ pub struct ForcingSamples {
 
 /// Fit of weights to samples of a forcing term.
 ///
-/// Contract: the result depends on the samples as a set (up to rounding) and on the weights' ratios only; it is linear
-/// in the targets and treats each target column alone.
+/// Contract: the result depends on the samples as a set (up to rounding; unless told to forget) and on the weights' ratios
+/// only; it is linear in the targets and treats each target column alone.
 pub trait Regression {
     /// Fits W of f(s) = WᵀΨ(s), Eq. (2), to `samples` by Eq. (4); returns n × d.
     ///
@@ -59,6 +61,8 @@ pub enum RegressionConfig {
     Ridge(Ridge),
     /// Locally weighted regression, basis by basis: the paper's choice.
     Lwr(Lwr),
+    /// The same sample by sample, optionally forgetting.
+    Recursive(Recursive),
 }
 
 impl Default for RegressionConfig {
@@ -74,6 +78,7 @@ impl RegressionConfig {
         match self {
             Self::Ridge(ridge) => ridge,
             Self::Lwr(lwr) => lwr,
+            Self::Recursive(recursive) => recursive,
         }
     }
 
@@ -83,6 +88,7 @@ impl RegressionConfig {
         match self {
             Self::Ridge(_) => "ridge",
             Self::Lwr(_) => "lwr",
+            Self::Recursive(_) => "recursive",
         }
     }
 

@@ -27,24 +27,33 @@ impl Default for Ridge {
 
 impl Regression for Ridge {
     fn fit(&self, samples: &ForcingSamples, basis: &GaussianBasis) -> Result<DMatrix<f64>, SkillError> {
-        let design = basis.design_matrix(&samples.phases);
-        let mut weighted = design.clone();
-        for (mut row, weight) in weighted.row_iter_mut().zip(samples.weights.iter()) {
-            row *= *weight;
+        let targets = samples.targets.transpose();
+        let mut activations = vec![0.0; basis.count()];
+        let mut normal = DMatrix::zeros(basis.count(), basis.count());
+        let mut moments = DMatrix::zeros(targets.nrows(), basis.count());
+        for (m, (phase, weight)) in samples.phases.iter().zip(samples.weights.iter()).enumerate() {
+            // only a band of neighboring bases is active: the rest of the row of P is zero
+            let active = basis.activate_active(*phase, &mut activations);
+            for column in active.clone() {
+                let weighted = weight * activations[column];
+                moments.column_mut(column).axpy(weighted, &targets.column(m), 1.0);
+                for row in column..active.end {
+                    normal[(row, column)] += weighted * activations[row];
+                }
+            }
         }
-        let transposed = weighted.transpose();
-        let mut normal = &transposed * &design;
         let ridge = self.lambda * normal.trace() / basis.count() as f64;
         for i in 0..basis.count() {
             normal[(i, i)] += ridge;
         }
         let undetermined = SkillError::Undetermined { samples: samples.phases.len(), bases: basis.count() };
+        // reads the lower triangle alone
         let factor = normal.cholesky().ok_or(undetermined)?;
-        Ok(factor.solve(&(transposed * &samples.targets)))
+        Ok(factor.solve(&moments.transpose()))
     }
 
     fn default_crossing(&self) -> f64 {
-        0.7
+        0.72
     }
 
     fn validate(&self) -> Result<(), FieldError> {

@@ -2,6 +2,7 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::intention::Intention;
 use super::refusal::LearnError;
 use crate::demonstration::{Aligned, Demonstration, path};
 use crate::error::SkillError;
@@ -36,8 +37,10 @@ pub struct SkillLibrary {
     pub pushes: Vec<ObjectOperatingSkill>,
     /// The ways of the tool before, between and after them: one more than there are pushes.
     pub flips: Vec<ToolFlippingSkill>,
+    /// Where the object was to go, whatever the tool.
+    pub intention: Intention,
     /// Kind of the primitives, for ways that no demonstration shows.
-    primitive: PrimitiveConfig,
+    pub(super) primitive: PrimitiveConfig,
 }
 
 /// What became of the demonstrations.
@@ -86,7 +89,8 @@ impl SkillLibrary {
         let pushes = common.iter().enumerate().map(learn_push).collect::<Result<_, _>>()?;
         let flips = (0..=common.len()).map(|index| ToolFlippingSkill::learn(primitive, &used, index));
         let flips = flips.collect::<Result<_, _>>()?;
-        Ok((Self { pushes, flips, primitive: primitive.clone() }, report))
+        let intention = Intention::learn(primitive, &used, tool)?;
+        Ok((Self { pushes, flips, intention, primitive: primitive.clone() }, report))
     }
 
     /// A way that was not shown, through the given places relative to the object's center.

@@ -1,6 +1,7 @@
 //! Why nothing could be learned, and why there is no plan.
 
 use crate::error::SkillError;
+use crate::separation::constraint_based::ConstraintError;
 
 /// Why demonstrations teach no tool use.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -17,6 +18,9 @@ pub enum LearnError {
         /// Names and reasons of those that were left out, in brackets; empty if there are none.
         reasons: String,
     },
+    /// The intention could not be separated from the tool's constraints.
+    #[error(transparent)]
+    Intention(#[from] ConstraintError),
     /// A primitive could not be learned.
     #[error(transparent)]
     Skill(#[from] SkillError),

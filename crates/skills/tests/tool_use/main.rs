@@ -3,7 +3,9 @@
 // helpers of tests may stop at the first surprise, as tests do
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
+mod chain;
 mod generalizing;
+mod kinds;
 mod learning;
 mod planning;
 mod refusals;

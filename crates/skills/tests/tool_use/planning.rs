@@ -57,7 +57,7 @@ pub fn problem() -> PushProblem<'static> {
 }
 
 /// Tasks that the skills are generalized to.
-fn problems() -> Vec<PushProblem<'static>> {
+pub fn problems() -> Vec<PushProblem<'static>> {
     let to = |start: [f64; 2], goal: [f64; 2]| PushProblem {
         start_world: start.into(),
         goal_world: goal.into(),

@@ -26,6 +26,7 @@ pub struct Shown {
 pub fn obtain(task: &PushTask<'_>, progress: Progress<'_>) -> Result<Shown, StageError> {
     let mut shown = Shown::default();
     match &task.scenario.scenario.demonstrations {
+        DemonstrationsConfig::Learned { .. } => {}
         DemonstrationsConfig::Recorded { .. } => shown.demonstrations.clone_from(&task.scenario.recorded),
         DemonstrationsConfig::Synthetic(config) => run_trials(task, config, config.count, progress, &mut |trial| {
             match trial.failure {
@@ -47,7 +48,7 @@ pub fn show(
 ) -> Result<(), StageError> {
     let DemonstrationsConfig::Synthetic(config) = &task.scenario.scenario.demonstrations else {
         return Err(StageError::Input(
-            "the scenario learns from recorded demonstrations; expected [demonstrations.synthetic], a human who can \
+            "the scenario has demonstrations or skills already; expected [demonstrations.synthetic], a human who can \
              show the task"
                 .into(),
         ));

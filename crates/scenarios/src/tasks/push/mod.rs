@@ -26,7 +26,7 @@ use demonstrations::Shown;
 use super::{ShownTrial, StageError, Task};
 use crate::outcome::Outcome;
 use crate::pipeline::Progress;
-use crate::scenario::{ExecutionMode, ResolvedScenario};
+use crate::scenario::{ExecutionMode, Origin, ResolvedScenario, SkillsFile};
 
 /// Time between two motions of a plan, s.
 const PLAN_STEP_S: f64 = 0.002;
@@ -169,10 +169,29 @@ impl Task for PushTask<'_> {
     fn learn(&self, shown: &Shown) -> Result<Learned, StageError> {
         let scenario = &self.scenario.scenario;
         let tool = &self.scenario.demonstration_tool;
+        if let Some(file) = &self.scenario.learned {
+            let restored = file.skills.clone().restore(tool).map_err(|error| StageError::Broken(error.to_string()))?;
+            let report = LearningReport { used: file.learned.demonstrations.clone(), ..LearningReport::default() };
+            return Ok(Learned { library: restored, report });
+        }
         let learned = SkillLibrary::learn(&scenario.primitive, &shown.demonstrations, tool, &scenario.object.shape);
         learned
             .map(|(library, report)| Learned { library, report })
             .map_err(|error| StageError::Infeasible(error.to_string()))
+    }
+
+    fn save(&self, skills: &Learned) -> Result<SkillsFile, StageError> {
+        let tool = &self.scenario.demonstration_tool;
+        let origin = match &self.scenario.learned {
+            Some(file) => file.learned.clone(),
+            None => Origin {
+                scenario: self.scenario.name.clone(),
+                seed: self.seed,
+                tool: self.scenario.demonstration_tool_name().to_owned(),
+                demonstrations: skills.report.used.clone(),
+            },
+        };
+        Ok(SkillsFile::new(origin, skills.library.saved(tool)))
     }
 
     fn plan(&self, skills: &Learned) -> Result<Checked, StageError> {

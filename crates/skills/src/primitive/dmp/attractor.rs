@@ -27,6 +27,10 @@ impl Attractor {
         Self { alpha }
     }
 
+    pub(super) fn alpha(&self) -> f64 {
+        self.alpha
+    }
+
     fn stiffness(&self) -> f64 {
         // αβ with β = α/4
         0.25 * self.alpha * self.alpha

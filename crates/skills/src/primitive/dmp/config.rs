@@ -34,7 +34,7 @@ pub struct DmpConfig {
     pub gamma: f64,
     /// Regression that learns the weights.
     pub regression: RegressionConfig,
-    /// Height at which neighboring bases cross, between 0 and 1; by default 0.7 for ridge and 0.5 for locally weighted
+    /// Height at which neighboring bases cross, between 0 and 1; by default 0.72 for ridge and 0.5 for locally weighted
     /// regression.
     pub overlap: Option<f64>,
 }
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn the_defaults_are_valid() {
         assert_eq!(PrimitiveConfig::default().validate(), Ok(()));
-        assert_eq!(DmpConfig::default().crossing(), 0.7);
+        assert_eq!(DmpConfig::default().crossing(), 0.72);
         let lwr = DmpConfig { regression: RegressionConfig::Lwr(Lwr {}), ..DmpConfig::default() };
         assert_eq!(lwr.crossing(), 0.5);
     }
@@ -115,7 +115,7 @@ mod tests {
         let parsed: PrimitiveConfig = serde_json::from_str(r#"{"dmp": {}}"#).unwrap();
         assert_eq!(parsed, PrimitiveConfig::default());
         let chosen = r#"{"dmp": {"form": "eq1_literal", "regression": {"lwr": {}}, "overlap": 0.4}}"#;
-        let PrimitiveConfig::Dmp(chosen) = serde_json::from_str(chosen).unwrap();
+        let PrimitiveConfig::Dmp(chosen) = serde_json::from_str(chosen).unwrap() else { panic!("another kind") };
         assert_eq!((chosen.form, chosen.regression.name()), (DmpForm::Eq1Literal, "lwr"));
         assert!(serde_json::from_str::<PrimitiveConfig>(r#"{"dmp": {"base": 3}}"#).is_err());
         assert!(serde_json::from_str::<PrimitiveConfig>(r#"{"dmpp": {}}"#).is_err());

@@ -28,8 +28,18 @@ impl ForcingTerm {
     /// Evaluates f at `progress` = t/τ into `forcing` (d values), with `activations` (n values) as scratch; allocates
     /// nothing.
     pub(super) fn evaluate_into(&self, progress: f64, activations: &mut DVector<f64>, forcing: &mut DVector<f64>) {
-        self.basis.activate_into(self.canonical.phase(progress), activations);
-        forcing.gemv_tr(self.gate(progress), &self.weights, activations, 0.0);
+        let gate = self.gate(progress);
+        if gate == 0.0 {
+            forcing.fill(0.0);
+            return;
+        }
+        let active = self.basis.activate_active(self.canonical.phase(progress), activations.as_mut_slice());
+        let activations = activations.as_slice();
+        let columns = self.weights.as_slice().chunks_exact(activations.len());
+        for (forcing, weights) in forcing.iter_mut().zip(columns) {
+            let terms = weights[active.clone()].iter().zip(&activations[active.clone()]);
+            *forcing = gate * terms.map(|(weight, activation)| weight * activation).sum::<f64>();
+        }
     }
 
     fn gate(&self, progress: f64) -> f64 {

@@ -21,7 +21,7 @@ const REST: f64 = 0.05;
 const SMALLEST_DISPLACEMENT: f64 = 1e-3;
 
 /// Checks that there are demonstrations, all of one dimension, and returns that dimension.
-pub(super) fn common_dimension(demonstrations: &[Trajectory]) -> Result<usize, SkillError> {
+pub(in crate::primitive) fn common_dimension(demonstrations: &[Trajectory]) -> Result<usize, SkillError> {
     let expected = demonstrations.first().ok_or(SkillError::NoDemonstrations)?.dimension();
     for (demonstration, trajectory) in demonstrations.iter().enumerate() {
         let found = trajectory.dimension();
@@ -32,29 +32,49 @@ pub(super) fn common_dimension(demonstrations: &[Trajectory]) -> Result<usize, S
     Ok(expected)
 }
 
-/// Gathers the forcing samples of all demonstrations, unscaled.
+// one weight per demonstration, at least one of them above zero
+fn check_weights(weights: &[f64], demonstrations: usize) -> Result<(), SkillError> {
+    let refused = |argument, found, expected| {
+        Err(SkillError::InvalidArgument { operation: "learn primitive", argument, found, expected })
+    };
+    if weights.len() != demonstrations {
+        return refused("number of weights", weights.len() as f64, "one per demonstration");
+    }
+    if let Some(found) = weights.iter().find(|weight| !(weight.is_finite() && **weight >= 0.0)) {
+        return refused("weight", *found, "a finite number of at least 0");
+    }
+    if weights.iter().all(|weight| *weight == 0.0) {
+        return refused("sum of weights", 0.0, "more than 0");
+    }
+    Ok(())
+}
+
+/// Gathers the forcing samples of all demonstrations, unscaled, each weighing as its demonstration and as the time it
+/// stands for.
 pub(super) fn forcing_samples(
     form: DmpForm,
     attractor: Attractor,
     canonical: CanonicalSystem,
     demonstrations: &[Trajectory],
+    weights: &[f64],
 ) -> Result<ForcingSamples, SkillError> {
     let rows = demonstrations.iter().map(Trajectory::len).sum();
     let dimension = common_dimension(demonstrations)?;
+    check_weights(weights, demonstrations.len())?;
     let mut samples = ForcingSamples {
         phases: DVector::zeros(rows),
         targets: DMatrix::zeros(rows, dimension),
         weights: DVector::zeros(rows),
     };
     let mut first = 0;
-    for trajectory in demonstrations {
+    for (trajectory, weight) in demonstrations.iter().zip(weights) {
         let progress = progress(trajectory);
         let count = progress.len();
         samples
             .phases
             .rows_mut(first, count)
             .copy_from_slice(&progress.iter().map(|progress| canonical.phase(*progress)).collect::<Vec<_>>());
-        samples.weights.rows_mut(first, count).copy_from_slice(&spacing(&progress));
+        samples.weights.rows_mut(first, count).copy_from(&(DVector::from_vec(spacing(&progress)) * *weight));
         samples.targets.rows_mut(first, count).copy_from(&targets(form, attractor, &progress, trajectory));
         first += count;
     }
@@ -82,12 +102,16 @@ pub(super) fn scale_by_displacement(
         let values = trajectory.samples().column(coordinate);
         let displacement = values[values.len() - 1] - values[0];
         let smallest = SMALLEST_DISPLACEMENT * (values.max() - values.min());
-        if displacement.abs() <= smallest {
-            return Err(SkillError::NoDisplacement { demonstration, coordinate, displacement, smallest });
+        let rows = trajectory.len();
+        // one that is left out need not be scaled
+        if samples.weights.rows(first, rows).amax() > 0.0 {
+            if displacement.abs() <= smallest {
+                return Err(SkillError::NoDisplacement { demonstration, coordinate, displacement, smallest });
+            }
+            scaled.targets.rows_mut(first, rows).scale_mut(displacement.recip());
+            scaled.weights.rows_mut(first, rows).scale_mut(displacement * displacement);
         }
-        scaled.targets.rows_mut(first, trajectory.len()).scale_mut(displacement.recip());
-        scaled.weights.rows_mut(first, trajectory.len()).scale_mut(displacement * displacement);
-        first += trajectory.len();
+        first += rows;
     }
     Ok(scaled)
 }
@@ -146,7 +170,8 @@ mod tests {
         // x = t, τ = T = 2, g = 2: v = τẋ = 2, τv̇ = 0, f = −α(β(g − x) − v)
         let line = Trajectory::uniform(0.5, DMatrix::from_fn(5, 1, |row, _| 0.5 * row as f64)).unwrap();
         let samples =
-            forcing_samples(DmpForm::Eq1Literal, Attractor::new(4.0), CanonicalSystem::new(1.0), &[line]).unwrap();
+            forcing_samples(DmpForm::Eq1Literal, Attractor::new(4.0), CanonicalSystem::new(1.0), &[line], &[1.0])
+                .unwrap();
         for row in 0..5 {
             let x = 0.5 * row as f64;
             assert_relative_eq!(samples.targets[(row, 0)], -4.0 * ((2.0 - x) - 2.0), epsilon = ROUNDING);

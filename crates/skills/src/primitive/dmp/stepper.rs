@@ -6,6 +6,7 @@ use super::attractor::{Attractor, Propagator};
 use super::config::DmpForm;
 use super::forcing::ForcingTerm;
 use super::{Dmp, RolloutRequest};
+use crate::coupling::{Coupling, MotionState, add_up};
 use crate::error::SkillError;
 use crate::primitive::rollout::check_vector;
 use crate::time_law::{MinimumJerkTransfer, PathState};
@@ -17,8 +18,8 @@ const STEP_RATIOS: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
 
 /// Motion of a [`Dmp`] in progress, Eq. (6) when a coupling is given: τv̇ = α(β(g − x) − v) + f(s) + Δu, τẋ = v.
 ///
-/// All memory is taken when the motion starts: stepping and changing goal or duration allocate nothing. The same steps
-/// give the same bits as a rollout.
+/// All memory is taken when the motion starts: stepping and changes allocate nothing. The same steps give the same bits
+/// as a rollout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DmpStepper {
     form: DmpForm,
@@ -36,9 +37,11 @@ pub struct DmpStepper {
     // u = x − baseline and v = τu̇
     offset: DVector<f64>,
     rate: DVector<f64>,
-    // f at the present progress, not scaled, and scratch
+    // f at the present progress, not scaled, and Δu held over the last step; each with scratch
     term: DVector<f64>,
     next_term: DVector<f64>,
+    coupling: DVector<f64>,
+    next_coupling: DVector<f64>,
     activations: DVector<f64>,
     position: DVector<f64>,
     velocity: DVector<f64>,
@@ -77,13 +80,15 @@ impl DmpStepper {
             rate,
             term: DVector::zeros(dimension),
             next_term: DVector::zeros(dimension),
+            coupling: DVector::zeros(dimension),
+            next_coupling: DVector::zeros(dimension),
             activations: DVector::zeros(dmp.forcing.basis.count()),
             position: DVector::zeros(dimension),
             velocity: DVector::zeros(dimension),
             acceleration: DVector::zeros(dimension),
         };
         stepper.forcing.evaluate_into(0.0, &mut stepper.activations, &mut stepper.term);
-        stepper.publish(None);
+        stepper.publish();
         // not a rounding away from what was asked
         stepper.position.copy_from(&request.start);
         stepper
@@ -94,7 +99,10 @@ impl DmpStepper {
     /// # Errors
     /// If the step is not between 1e-12 and 1e6 durations.
     pub fn step(&mut self, time_step_s: f64) -> Result<(), SkillError> {
-        self.advance(time_step_s, None)
+        let ratio = self.ratio(time_step_s)?;
+        self.coupling.fill(0.0);
+        self.advance(time_step_s, ratio);
+        Ok(())
     }
 
     /// Advances by `time_step_s` (> 0, s) with the coupling Δu of Eq. (6), d values held over the step.
@@ -105,8 +113,27 @@ impl DmpStepper {
     /// # Errors
     /// If the step is not between 1e-12 and 1e6 durations or the coupling has not d finite values.
     pub fn step_with_coupling(&mut self, time_step_s: f64, coupling: &[f64]) -> Result<(), SkillError> {
-        check_vector("coupling", self.goal.len(), coupling)?;
-        self.advance(time_step_s, Some(coupling))
+        let ratio = self.check_step(time_step_s, coupling)?;
+        self.coupling.copy_from_slice(coupling);
+        self.advance(time_step_s, ratio);
+        Ok(())
+    }
+
+    /// Advances by `time_step_s` (> 0, s) with the sum of `couplings` at the present state as Δu of Eq. (6), held.
+    ///
+    /// # Errors
+    /// If the step is not between 1e-12 and 1e6 durations, or a coupling is of another dimension or yields a number that
+    /// is not finite; the motion then stays where it is.
+    pub fn step_coupled(&mut self, time_step_s: f64, couplings: &[&dyn Coupling]) -> Result<(), SkillError> {
+        let ratio = self.ratio(time_step_s)?;
+        // taken out, for the state borrows the rest; takes no memory
+        let mut sum = std::mem::take(&mut self.next_coupling);
+        let evaluated = add_up(couplings, &self.state(), sum.as_mut_slice());
+        self.next_coupling = sum;
+        evaluated?;
+        std::mem::swap(&mut self.coupling, &mut self.next_coupling);
+        self.advance(time_step_s, ratio);
+        Ok(())
     }
 
     /// Changes the goal to `goal` (d finite values, unit and frame of the demonstrations) from now on.
@@ -121,7 +148,7 @@ impl DmpStepper {
         check_vector("goal", self.goal.len(), goal)?;
         self.goal.copy_from_slice(goal);
         self.replan(1.0);
-        self.publish(None);
+        self.publish();
         Ok(())
     }
 
@@ -141,8 +168,19 @@ impl DmpStepper {
         self.duration_s = duration_s;
         self.rate *= stretch;
         self.replan(stretch);
-        self.publish(None);
+        self.publish();
         Ok(())
+    }
+
+    /// Returns the state a coupling sees.
+    #[must_use]
+    pub fn state(&self) -> MotionState<'_> {
+        MotionState {
+            position: self.position.as_slice(),
+            velocity: self.velocity.as_slice(),
+            elapsed_s: self.elapsed_s,
+            duration_s: self.duration_s,
+        }
     }
 
     /// Returns the position, d values, unit and frame of the demonstrations.
@@ -187,11 +225,21 @@ impl DmpStepper {
         self.progress
     }
 
-    fn advance(&mut self, time_step_s: f64, coupling: Option<&[f64]>) -> Result<(), SkillError> {
+    // checks a step with a coupling given as numbers and returns dt/τ
+    pub(super) fn check_step(&self, time_step_s: f64, coupling: &[f64]) -> Result<f64, SkillError> {
+        check_vector("coupling", self.goal.len(), coupling)?;
+        self.ratio(time_step_s)
+    }
+
+    fn ratio(&self, time_step_s: f64) -> Result<f64, SkillError> {
         let ratio = time_step_s / self.duration_s;
-        if !STEP_RATIOS.contains(&ratio) {
-            return Err(refused("time_step_s", time_step_s, "a number from 1e-12 to 1e6 durations"));
+        if STEP_RATIOS.contains(&ratio) {
+            return Ok(ratio);
         }
+        Err(refused("time_step_s", time_step_s, "a number from 1e-12 to 1e6 durations"))
+    }
+
+    fn advance(&mut self, time_step_s: f64, ratio: f64) {
         if ratio != self.propagator.ratio {
             self.propagator = self.attractor.propagator(ratio);
         }
@@ -199,22 +247,20 @@ impl DmpStepper {
         self.elapsed_s += time_step_s;
         self.forcing.evaluate_into(self.progress, &mut self.activations, &mut self.next_term);
         for k in 0..self.goal.len() {
-            let added = coupling_of(coupling, k);
-            let from = self.scale(k) * self.term[k] + added;
-            let to = self.scale(k) * self.next_term[k] + added;
+            let from = self.scale(k) * self.term[k] + self.coupling[k];
+            let to = self.scale(k) * self.next_term[k] + self.coupling[k];
             (self.offset[k], self.rate[k]) = self.propagator.step(self.offset[k], self.rate[k], from, to);
         }
         std::mem::swap(&mut self.term, &mut self.next_term);
-        self.publish(coupling);
-        Ok(())
+        self.publish();
     }
 
     // sums baseline and offset to position, velocity and acceleration at the present progress
-    fn publish(&mut self, coupling: Option<&[f64]>) {
+    fn publish(&mut self) {
         let tau = self.duration_s;
         for k in 0..self.goal.len() {
             let baseline = self.baselines[k].at(self.progress);
-            let forcing = self.scale(k) * self.term[k] + coupling_of(coupling, k);
+            let forcing = self.scale(k) * self.term[k] + self.coupling[k];
             let second = self.attractor.acceleration(self.offset[k], self.rate[k], forcing);
             self.position[k] = baseline.position + self.offset[k];
             self.velocity[k] = (baseline.first + self.rate[k]) / tau;
@@ -247,10 +293,6 @@ impl DmpStepper {
             DmpForm::Scaled => self.goal[k] - self.start[k],
         }
     }
-}
-
-fn coupling_of(coupling: Option<&[f64]>, k: usize) -> f64 {
-    coupling.and_then(|coupling| coupling.get(k)).copied().unwrap_or(0.0)
 }
 
 fn refused(argument: &'static str, found: f64, expected: &'static str) -> SkillError {

@@ -1,0 +1,103 @@
+//! `wield learn`: what a scenario's demonstrations teach, kept in a file.
+
+use std::path::{Path, PathBuf};
+
+use super::progress::RunProgress;
+use super::{Exit, load_told, panics, say, say_aside, say_error, unwritable};
+use crate::files::{probe, write_whole};
+use crate::pipeline::{RunError, learn};
+use crate::scenario::{LARGEST_SEED, ResolvedScenario, SkillsFile, notes};
+
+pub const AFTER_HELP: &str = "\
+The file is text: where the skills come from, and every number that defines them, to the last bit. What is loaded moves
+exactly as what was learned.
+
+To use the skills, put the file into the folder `skills` of the assets and name it in a scenario:
+  [demonstrations.learned]
+  asset = \"push_stick\"
+
+Examples:
+  wield learn scenarios/push_stick.toml --out assets/skills/push_stick.toml
+  wield learn scenarios/push_stick.toml --seed 7 --out seven.toml
+
+Exit codes: 0 success, 1 nothing could be learned, 2 bad input (nothing written), 3 crashed or diverged.";
+
+/// Options of `wield learn`.
+#[derive(Debug, clap::Args)]
+pub struct LearnArguments {
+    /// Scenario file
+    file: PathBuf,
+    /// Seed of the human and the recorders [default: the scenario's]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
+    seed: Option<u64>,
+    /// File for the skills [default: <scenario>.skills.toml]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Loads the scenario, makes sure that the file can be written, learns, writes, reports.
+pub fn execute(arguments: &LearnArguments, assets: Option<&Path>) -> Exit {
+    let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
+    let seed = arguments.seed.unwrap_or(scenario.scenario.scenario.seed);
+    let out = arguments.out.clone().unwrap_or_else(|| format!("{}.skills.toml", scenario.name).into());
+    if let Err(error) = probe(&out) {
+        say_error(&unwritable(&out, &error, "--out"));
+        return Exit::BadInput;
+    }
+    if !arguments.quiet {
+        notes(&scenario).iter().for_each(|note| say_aside(&format!("note: {note}")));
+    }
+    match learned(arguments, &scenario, seed) {
+        Ok(Ok(skills)) => keep(arguments, &skills, &out),
+        Ok(Err(reason)) => {
+            say_error(&format!("{} with seed {seed}: {reason}", scenario.name));
+            Exit::Missed
+        }
+        Err(error) if error.is_input => {
+            say_error(&format!("{} with seed {seed}: {error} ({})", scenario.name, arguments.file.display()));
+            Exit::BadInput
+        }
+        Err(error) => {
+            say_error(&format!("{} with seed {seed}: {error}", scenario.name));
+            Exit::Crashed
+        }
+    }
+}
+
+fn learned(
+    arguments: &LearnArguments,
+    scenario: &ResolvedScenario,
+    seed: u64,
+) -> Result<Result<SkillsFile, String>, RunError> {
+    let progress = RunProgress::new(arguments.quiet);
+    let result = panics::catch(|| learn(scenario, seed, &|stage, share| progress.show(stage, share)));
+    progress.finish();
+    result.unwrap_or_else(|reason| Err(RunError { stage: "learn", reason, is_input: false }))
+}
+
+/// Writes the skills and says what they are.
+fn keep(arguments: &LearnArguments, skills: &SkillsFile, out: &Path) -> Exit {
+    let written = skills.text().and_then(|text| write_whole(out, text.as_bytes()).map_err(|error| error.to_string()));
+    if let Err(reason) = written {
+        say_error(&format!("write {}: {reason}", out.display()));
+        return Exit::Crashed;
+    }
+    if arguments.quiet {
+        return Exit::Success;
+    }
+    let pushes = skills.skills.pushes.iter().map(|push| {
+        let [x, y] = push.displacement_m.map(|length| 1e3 * length);
+        format!("  push with `{}`: ({x:.0}, {y:.0}) mm in {:.1} s\n", push.surface, push.duration_s)
+    });
+    let origin = &skills.learned;
+    let shown = origin.demonstrations.len();
+    say(&format!(
+        "learned with the tool `{}` from {shown} demonstrations:\n{}skills: {}\n",
+        origin.tool,
+        pushes.collect::<String>(),
+        out.display()
+    ))
+}
