@@ -21,8 +21,7 @@ fn l_tool() -> Tool {
         position_m,
         angle_rad: 0.0,
     };
-    let face =
-        |name: &str, start_m, end_m| ContactSurface { name: name.into(), shape: SurfaceShape::Face { start_m, end_m } };
+    let face = |name: &str, start_m, end_m| ContactSurface::new(name, SurfaceShape::Face { start_m, end_m });
     Tool {
         name: "L".into(),
         description: String::new(),

@@ -22,6 +22,7 @@ pub mod tool;
 pub mod tool_flipping;
 pub mod tool_use;
 pub mod trajectory;
+pub mod transfer;
 
 pub use error::SkillError;
 pub use primitive::{

@@ -117,6 +117,13 @@ impl PlacedOutline {
         Isometry2::new(Vector2::from(self.position_m), self.angle_rad)
     }
 
+    /// Returns the outline moved by `pose`, which leads from the larger frame to one larger still.
+    #[must_use]
+    pub fn transformed(&self, pose: &Isometry2<f64>) -> Self {
+        let position_m = (pose * Point2::from(self.position_m)).into();
+        Self { shape: self.shape.clone(), position_m, angle_rad: self.angle_rad + pose.rotation.angle() }
+    }
+
     /// Signed distance of a point (in the larger frame, m): negative inside.
     #[must_use]
     pub fn signed_distance_m(&self, point: &Point2<f64>) -> f64 {

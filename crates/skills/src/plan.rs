@@ -33,6 +33,8 @@ pub enum ActionKind {
 pub struct Push {
     /// Index of the contact surface in the tool's list.
     pub surface: usize,
+    /// Where on the surface the object is held: arc length from its middle, m, positive to the left of the normal.
+    pub place_m: f64,
     /// Where the object's center begins, world frame.
     pub from_world: Point2<f64>,
     /// Where the object's center ends, world frame.

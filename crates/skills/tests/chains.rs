@@ -17,8 +17,7 @@ const SPEED_M_PER_S: f64 = 0.05;
 
 /// A square that pushes to the left and forward with the middles of its sides.
 fn square() -> Tool {
-    let face =
-        |name: &str, start_m, end_m| ContactSurface { name: name.into(), shape: SurfaceShape::Face { start_m, end_m } };
+    let face = |name: &str, start_m, end_m| ContactSurface::new(name, SurfaceShape::Face { start_m, end_m });
     Tool {
         name: "square".into(),
         description: String::new(),
@@ -74,7 +73,7 @@ fn chain(pushes: &[(usize, f64)]) -> Plan {
             tool = to;
         }
         let to = center + normal * *length_m;
-        let push = Push { surface: *surface, from_world: center, to_world: to };
+        let push = Push { surface: *surface, place_m: 0.0, from_world: center, to_world: to };
         actions.push(Action {
             name: "push".into(),
             kind: ActionKind::ObjectOperating(push),

@@ -53,8 +53,7 @@ fn corner() -> Tool {
         position_m,
         angle_rad: 0.0,
     };
-    let face =
-        |name: &str, start_m, end_m| ContactSurface { name: name.into(), shape: SurfaceShape::Face { start_m, end_m } };
+    let face = |name: &str, start_m, end_m| ContactSurface::new(name, SurfaceShape::Face { start_m, end_m });
     Tool {
         name: "corner".into(),
         description: String::new(),

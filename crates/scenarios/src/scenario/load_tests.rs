@@ -6,6 +6,9 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 
 use super::*;
+use crate::assets::AssetKind;
+use crate::scenario::named::read_tool;
+use skills::tool::Tool;
 
 fn project() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -48,6 +51,85 @@ fn a_scenario_written_with_all_defaults_loads_to_the_same() {
     let again = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
     assert_eq!(again.scenario, loaded.scenario);
     assert!(text.contains("time_step_s"), "defaults are written out");
+}
+
+/// A shipped tool.
+fn tool(name: &str) -> Tool {
+    let file = assets().path(AssetKind::Tool, name).unwrap();
+    read_tool(&Source::read(&file).unwrap()).unwrap()
+}
+
+/// The tool of a file with these lines about its shape, or the first problem.
+fn tool_with(lines: &str) -> Result<Tool, String> {
+    let text = format!("name = \"tool\"\nmass_kg = 0.01\nfriction = 0.3\n{lines}");
+    read_tool(&Source { file: "tool.toml".into(), text: text.into() }).map_err(|problems| problems[0].to_string())
+}
+
+#[test]
+fn shipped_tools_are_the_defaults_of_their_families() {
+    for (name, family) in [("l", "l"), ("t", "t"), ("hook", "hook"), ("rake", "rake"), ("paddle_flat", "paddle")] {
+        let (shipped, default) = (tool(name), tool_with(&format!("family = \"{family}\"")).unwrap());
+        assert_eq!((shipped.pieces, shipped.surfaces), (default.pieces, default.surfaces), "{name}");
+    }
+}
+
+#[test]
+fn the_stick_can_be_written_as_a_family() {
+    let (pieces, family) = (tool("stick"), tool_with("family.stick = {}").unwrap());
+    assert_eq!(pieces.surfaces.len(), family.surfaces.len());
+    for (one, other) in pieces.surfaces.iter().zip(&family.surfaces) {
+        assert_eq!(one.name, other.name);
+        assert!((one.middle().point - other.middle().point).norm() < 1e-15);
+        assert!((one.length_m() - other.length_m()).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn a_mistake_in_a_family_points_at_its_key() {
+    let expect = [
+        (
+            "family.hook = { throat_m = 0.020 }",
+            "tool.toml:4:28: bad value for `throat_m` in [family.hook]: found 0.02; \
+             expected at least 0.026 m: object_radius_m on either side of the disc's center, and play",
+        ),
+        (
+            "family.paddle.face.concave.radius_m = 0.010",
+            "tool.toml:4:39: bad value for `radius_m` in [family.paddle.face.concave]: found 0.01; \
+             expected at least 0.021053 m: width_m by 1.9, lest the rims end in blades",
+        ),
+        (
+            "family.l = { thickness_mm = 12 }",
+            "tool.toml:4:14: unknown key `thickness_mm` in [family.l]: expected one of `arm_m`, `stem_m`, `thickness_m`, \
+             `bottom_length_m`, `tip_length_m`, `top_length_m`, `stem_length_m`; \
+             lengths are in meters here: write thickness_m = 0.012",
+        ),
+        (
+            "family.hok = {}",
+            "tool.toml:4:8: unknown kind `hok` of `family`: expected one of `stick`, `l`, `t`, `hook`, `rake`, `paddle`; \
+             did you mean `hook`?",
+        ),
+        (
+            "grip = { position_m = [0.0, 40.0] }\nfamily = \"l\"",
+            "tool.toml:4:23: bad value for `position_m` in [grip]: found 40; expected a number from -1 to 1",
+        ),
+    ];
+    for (lines, expected) in expect {
+        assert_eq!(tool_with(lines).unwrap_err(), expected);
+    }
+}
+
+#[test]
+fn a_tool_file_without_a_shape_is_told_both_ways_to_state_one() {
+    let problem = tool_with("").unwrap_err();
+    assert!(problem.contains("either `family`, or `pieces` with `surfaces`"), "{problem}");
+}
+
+#[test]
+fn a_scenario_may_push_with_another_tool_than_was_shown() {
+    let text = changed("asset = \"stick\"", "asset = \"l\"").replace("count = 5", "count = 5\ntool = \"stick\"");
+    let source = Source { file: "push.toml".into(), text: text.into() };
+    let loaded = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
+    assert_eq!((loaded.tool.name.as_str(), loaded.demonstration_tool.name.as_str()), ("l", "stick"));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 use robot::Manipulator;
 use skills::demonstration::Demonstration;
 use skills::field::FieldError;
-use skills::tool::Tool;
+use skills::tool::{Tool, ToolFile};
 
 use super::document::path;
 use super::draft::{Draft, read};
@@ -114,12 +114,14 @@ impl Reader<'_> {
 /// Reads and checks a tool file.
 pub(crate) fn read_tool(source: &Source) -> Result<Tool, Vec<Diagnostic>> {
     let example = example_tool();
-    let Draft { value, tree, mut problems } = read::<Tool>(source, &example);
-    let (Some(tool), Some(tree)) = (value, tree) else { return Err(problems) };
-    if let Err(error) = tool.validate() {
-        problems.push(field_problem(Context { source, tree: &tree, example: &example }, error));
+    let Draft { value, tree, mut problems } = read::<ToolFile>(source, &example);
+    let (Some(file), Some(tree)) = (value, tree) else { return Err(problems) };
+    match file.tool() {
+        Ok(tool) if problems.is_empty() => return Ok(tool),
+        Ok(_) => {}
+        Err(error) => problems.push(field_problem(Context { source, tree: &tree, example: &example }, error)),
     }
-    if problems.is_empty() { Ok(tool) } else { Err(problems) }
+    Err(problems)
 }
 
 /// Title line of a tool file, for lists.

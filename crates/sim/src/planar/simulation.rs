@@ -88,7 +88,7 @@ fn check_speeds(model: &Manipulator, reference: &JointReference, time_s: f64) ->
     Ok(())
 }
 
-fn in_base(model: &Manipulator, world_from_tool: &Isometry2<f64>) -> Isometry3<f64> {
+pub(super) fn in_base(model: &Manipulator, world_from_tool: &Isometry2<f64>) -> Isometry3<f64> {
     model.world_from_base().inv_mul(&spatial(world_from_tool))
 }
 

@@ -77,12 +77,12 @@ impl PlanarWorld {
 
     /// Gives `body` the tool's outline, at `body_from_tool`, as its colliders.
     pub(crate) fn attach_tool(&mut self, body: RigidBodyHandle, tool: &Tool, body_from_tool: &Isometry2<f64>) {
-        for piece in &tool.pieces {
+        for (piece, friction) in tool.pieces.iter().zip(tool.piece_frictions()) {
             if let Some(shape) = piece.shape.shape() {
                 let collider = ColliderBuilder::new(shape)
                     .density(0.0)
                     .position(convert::pose(&(body_from_tool * piece.pose())))
-                    .friction(tool.friction)
+                    .friction(friction)
                     .friction_combine_rule(CoefficientCombineRule::Max)
                     .collision_groups(groups(TOOL_GROUP, OBJECT_GROUP | OBSTACLE_GROUP));
                 self.parties.push((self.physics.insert_collider(collider, Some(body)), Party::Tool));

@@ -23,7 +23,7 @@ fn push() -> Plan {
         Track::new(0.002, (0..=1000).map(at).collect()).expect("finite")
     };
     let (from_world, to_world) = (Point2::new(0.0, 0.06), Point2::new(0.0, 0.08));
-    let kind = ActionKind::ObjectOperating(Push { surface: 1, from_world, to_world });
+    let kind = ActionKind::ObjectOperating(Push { surface: 1, place_m: 0.0, from_world, to_world });
     let action = Action { name: "push".into(), kind, tool: track(0.0, 0.018), object: track(0.0, 0.06) };
     Plan::new(vec![action]).expect("one action")
 }

@@ -33,7 +33,7 @@ fn stick() -> Tool {
             position_m: [0.0, 0.015],
             angle_rad: 0.0,
         }],
-        surfaces: vec![ContactSurface { name: "tip".into(), shape }],
+        surfaces: vec![ContactSurface::new("tip", shape)],
     }
 }
 

@@ -43,7 +43,7 @@ fn square() -> ObjectConfig {
 fn tool(shape: Outline, friction: f64) -> Tool {
     let pieces = vec![PlacedOutline { shape, position_m: [0.0, 0.0], angle_rad: 0.0 }];
     let face = SurfaceShape::Face { start_m: [0.0, 0.0], end_m: [1.0, 0.0] };
-    let surfaces = vec![ContactSurface { name: "face".into(), shape: face }];
+    let surfaces = vec![ContactSurface::new("face", face)];
     Tool { name: "pusher".into(), description: String::new(), mass_kg: 0.02, friction, pieces, surfaces }
 }
 
@@ -183,6 +183,24 @@ fn p5_holds_down_to_the_speed_at_which_friction_is_solved_with_the_contacts() {
         assert_close(&format!("lateral at {speed} m/s"), pose.x, oracle.x, tolerance);
         assert_close(&format!("rotation at {speed} m/s"), pose.z, oracle.z, tolerance);
     }
+}
+
+#[test]
+fn a_surface_with_a_friction_of_its_own_pushes_with_it() {
+    let angle = 20_f64.to_radians();
+    let shape = Outline::Box { width_m: 0.2, height_m: 0.01 };
+    let pushed = |friction: f64, own: Option<f64>| {
+        let mut face = tool(shape.clone(), friction);
+        face.surfaces[0].friction = own;
+        let velocity = Rotation2::new(-angle) * Vector2::new(0.0, 0.02);
+        let start = Vector2::new(0.0, -RADIUS - 0.005 - TOUCHING);
+        push(&disc(SupportModel::Ellipsoid), &EngineConfig::default(), &face, start, velocity, 0.050)
+    };
+    assert_eq!(pushed(0.3, Some(0.0)), pushed(0.0, None));
+    assert_eq!(pushed(0.0, Some(0.3)), pushed(0.3, None));
+    // without friction a face moves a disc along its normal only; with it the disc rolls along
+    let (slippery, rough) = (pushed(0.3, Some(0.0)), pushed(0.0, Some(0.3)));
+    assert!(slippery.x.abs() < 1e-4 && rough.x > 0.004, "{slippery} {rough}");
 }
 
 #[test]

@@ -26,8 +26,7 @@ pub fn stick() -> Tool {
     let side = SurfaceShape::Face { start_m: [-0.006, 0.024], end_m: [-0.006, 0.014] };
     let direction_rad = std::f64::consts::FRAC_PI_2;
     let head = SurfaceShape::Arc { center_m: [0.0, 0.024], radius_m: 0.006, direction_rad, half_angle_rad: 0.08 };
-    let surface = |name: &str, shape| ContactSurface { name: name.into(), shape };
-    let surfaces = vec![surface("side", side), surface("head", head)];
+    let surfaces = vec![ContactSurface::new("side", side), ContactSurface::new("head", head)];
     Tool { name: "stick".into(), description: String::new(), mass_kg: 0.004, friction: 0.3, pieces, surfaces }
 }
 

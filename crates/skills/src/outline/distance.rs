@@ -21,6 +21,35 @@ impl Outline {
         }
     }
 
+    /// Distance from the origin of the line that touches the outline from the direction `angle_rad`, m.
+    #[must_use]
+    pub fn support_m(&self, angle_rad: f64) -> f64 {
+        let direction = Vector2::new(angle_rad.cos(), angle_rad.sin());
+        match self {
+            Self::Disc { radius_m } => *radius_m,
+            Self::Box { width_m, height_m } => 0.5 * (width_m * direction.x.abs() + height_m * direction.y.abs()),
+            Self::Polygon { vertices_m } => {
+                let reach = |vertex: &[f64; 2]| Vector2::from(*vertex).dot(&direction);
+                vertices_m.iter().map(reach).fold(f64::NEG_INFINITY, f64::max)
+            }
+        }
+    }
+
+    /// Whether something flat that touches from the direction `angle_rad` lies against a side to within `within_rad`;
+    /// a disc is alike from everywhere.
+    #[must_use]
+    pub fn has_side_towards(&self, angle_rad: f64, within_rad: f64) -> bool {
+        if matches!(self, Self::Disc { .. }) {
+            return true;
+        }
+        let direction = Vector2::new(angle_rad.cos(), angle_rad.sin());
+        let corners = self.drawing(0);
+        edges(&corners).any(|(a, b)| {
+            let outward = Vector2::new((b - a).y, (a - b).x);
+            outward.perp(&direction).atan2(outward.dot(&direction)).abs() <= within_rad
+        })
+    }
+
     /// Signed distance of a point (in the outline's frame, m): negative inside.
     #[must_use]
     pub fn signed_distance_m(&self, point: &Point2<f64>) -> f64 {

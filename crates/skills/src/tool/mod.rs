@@ -1,12 +1,17 @@
 //! Tools as data: outline, contact surfaces, mass and friction.
 //!
-//! A tool's frame is the frame of the actuator that holds it: its origin is the grip point.
+//! A tool's frame is the frame of the actuator that holds it: its origin is the grip point. A file may describe the tool
+//! in a frame of its own and state the grip between the two: see [`ToolFile`].
 
+pub mod family;
+mod file;
+mod friction;
 mod surface;
 
 use nalgebra::{Isometry2, Point2};
 use serde::{Deserialize, Serialize};
 
+pub use file::{Grip, ToolFile};
 pub use surface::{Contact, ContactSurface, SurfaceShape};
 
 use crate::field::{FieldError, not_negative, positive};
@@ -23,7 +28,7 @@ pub struct Tool {
     pub description: String,
     /// Mass, kg.
     pub mass_kg: f64,
-    /// Coefficient of friction between the tool and what it pushes.
+    /// Coefficient of friction between the tool and what it pushes, where a surface states none of its own.
     pub friction: f64,
     /// Convex pieces in the tool frame; their union is the tool.
     pub pieces: Vec<PlacedOutline>,
@@ -52,7 +57,7 @@ impl Tool {
             surface.validate().map_err(|error| error.within(format!("surfaces.{index}")))?;
             self.check_place(surface).map_err(|error| error.within(format!("surfaces.{index}")))?;
         }
-        Ok(())
+        self.check_friction()
     }
 
     /// Checks that middle and ends of a surface lie on the outline, and that its normal points out of the tool.
@@ -155,7 +160,7 @@ mod tests {
         let shape = Outline::Box { width_m: 0.04, height_m: 0.01 };
         let pieces = vec![PlacedOutline { shape, position_m: [0.0, 0.0], angle_rad: 0.0 }];
         let shape = SurfaceShape::Face { start_m: [0.02, 0.005], end_m: [-0.02, 0.005] };
-        let surfaces = vec![ContactSurface { name: "top".into(), shape }];
+        let surfaces = vec![ContactSurface::new("top", shape)];
         Tool { name: "bar".into(), description: String::new(), mass_kg: 0.01, friction: 0.3, pieces, surfaces }
     }
 
@@ -206,7 +211,7 @@ mod tests {
     fn a_tool_that_touches_leaves_the_gap_between_contact_and_disc() {
         let direction_rad = -std::f64::consts::FRAC_PI_2;
         let hollow = SurfaceShape::Arc { center_m: [0.0, -0.03], radius_m: -0.03, direction_rad, half_angle_rad: 0.5 };
-        let hollow = ContactSurface { name: "hollow".into(), shape: hollow };
+        let hollow = ContactSurface::new("hollow", hollow);
         let center = Point2::new(0.3, -0.2);
         for surface in [&bar().surfaces[0], &hollow] {
             for (place_m, gap_m, angle_rad) in [(0.0, 0.0, 0.0), (0.004, 0.001, 0.7), (-0.01, -0.0005, -2.0)] {

@@ -13,7 +13,7 @@ use crate::tool::{ContactSurface, SurfaceShape};
 const OTHER_PROGRAM_M: f64 = 1e-6;
 
 fn tool(pieces: Vec<PlacedOutline>, start_m: [f64; 2], end_m: [f64; 2]) -> Tool {
-    let surfaces = vec![ContactSurface { name: "face".into(), shape: SurfaceShape::Face { start_m, end_m } }];
+    let surfaces = vec![ContactSurface::new("face", SurfaceShape::Face { start_m, end_m })];
     Tool { name: "tool".into(), description: String::new(), mass_kg: 1.0, friction: 0.3, pieces, surfaces }
 }
 

@@ -221,7 +221,12 @@ impl PushProblem<'_> {
         };
         Ok(Action {
             name: format!("push {}", surface.name),
-            kind: ActionKind::ObjectOperating(Push { surface: skill.surface, from_world: from, to_world: to }),
+            kind: ActionKind::ObjectOperating(Push {
+                surface: skill.surface,
+                place_m: 0.0,
+                from_world: from,
+                to_world: to,
+            }),
             tool: place(pushed, hold, angle_rad)?,
             object: place(object, from, 0.0)?,
         })

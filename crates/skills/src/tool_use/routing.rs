@@ -126,7 +126,7 @@ mod tests {
             vec![PlacedOutline { shape: Outline::Disc { radius_m: 0.006 }, position_m: [0.0, 0.0], angle_rad: 0.0 }];
         let shape =
             SurfaceShape::Arc { center_m: [0.0, 0.0], radius_m: 0.006, direction_rad: 0.0, half_angle_rad: 0.1 };
-        let surfaces = vec![ContactSurface { name: "front".into(), shape }];
+        let surfaces = vec![ContactSurface::new("front", shape)];
         Tool { name: "finger".into(), description: String::new(), mass_kg: 0.01, friction: 0.3, pieces, surfaces }
     }
 

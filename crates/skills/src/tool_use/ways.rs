@@ -1,12 +1,14 @@
 //! Ways of the tool from hold to hold: as they were shown, or the shortest one round the object where none was shown.
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{DVector, Point2, Vector2};
 
-use super::library::{Shown, ToolFlippingSkill};
+use super::closing::closed;
+use super::library::{Shown, SkillLibrary, ToolFlippingSkill};
 use super::routing::Surroundings;
 use crate::demonstration::path;
 use crate::error::SkillError;
-use crate::primitive::PrimitiveConfig;
+use crate::plan::Track;
+use crate::primitive::{PrimitiveConfig, RolloutRequest};
 use crate::segmentation::PushFragment;
 use crate::time_law::minimum_jerk;
 
@@ -54,6 +56,38 @@ pub(super) fn round_object(
     let all = std::iter::once(from.0).chain(between).chain([to.0]);
     all.map(|place| Point2::from(place - around.object_world)).collect()
 }
+
+impl SkillLibrary {
+    /// A way of the tool through free space that no demonstration shows, in the time law of the library's primitives;
+    /// nothing if every way is barred.
+    ///
+    /// `from` and `to` are places of the tool's origin with the direction in which the hold there is left; without a hold
+    /// it is zero.
+    ///
+    /// # Errors
+    /// If the way cannot be learned or rolled out.
+    pub(crate) fn free_way(
+        &self,
+        around: &Surroundings<'_>,
+        from: (Point2<f64>, Vector2<f64>),
+        to: (Point2<f64>, Vector2<f64>),
+        speed_m_per_s: f64,
+        time_step_s: f64,
+    ) -> Result<Option<Track>, SkillError> {
+        let clear = |(place, away): (Point2<f64>, Vector2<f64>)| place + away * (around.margin_m + CORNER_M);
+        let Some(between) = around.way(clear(from), clear(to)) else { return Ok(None) };
+        let places: Vec<Point2<f64>> = std::iter::once(from.0).chain(between).chain([to.0]).collect();
+        let skill = self.way_along(places)?;
+        let steps = (skill.length_m / speed_m_per_s / time_step_s).ceil().max(FEWEST_STEPS);
+        let vector = |point: Point2<f64>| DVector::from_column_slice(&[point.x, point.y]);
+        let request = RolloutRequest::new(vector(from.0), vector(to.0), steps * time_step_s, time_step_s);
+        let track = Track::from_rollout(&skill.primitive.rollout(&request)?, time_step_s, around.angle_rad)?;
+        Track::new(time_step_s, closed(&track, &to.0.coords.push(around.angle_rad))).map(Some)
+    }
+}
+
+/// A motion has at least this many time steps.
+const FEWEST_STEPS: f64 = 10.0;
 
 /// What is kept beyond the margin so that a place is free whatever lies between two looks, m.
 const CORNER_M: f64 = 0.002;

@@ -31,7 +31,7 @@ fn polygon(vertices_cm: &[[f64; 2]]) -> PlacedOutline {
 fn face(name: &str, start_cm: [f64; 2], end_cm: [f64; 2]) -> ContactSurface {
     let meters = |[x, y]: [f64; 2]| [x / 100.0, y / 100.0];
     let shape = SurfaceShape::Face { start_m: meters(start_cm), end_m: meters(end_cm) };
-    ContactSurface { name: name.into(), shape }
+    ContactSurface::new(name, shape)
 }
 
 fn tool(name: &str, pieces: Vec<PlacedOutline>, surfaces: Vec<ContactSurface>) -> Tool {
@@ -64,7 +64,7 @@ pub fn stick() -> Tool {
         direction_rad: std::f64::consts::FRAC_PI_2,
         half_angle_rad: 0.08,
     };
-    let surfaces = vec![face("side", [-0.6, 2.4], [-0.6, 1.4]), ContactSurface { name: "head".into(), shape: arc }];
+    let surfaces = vec![face("side", [-0.6, 2.4], [-0.6, 1.4]), ContactSurface::new("head", arc)];
     tool("stick", vec![shaft, head], surfaces)
 }
 

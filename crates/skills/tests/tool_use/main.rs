@@ -11,3 +11,4 @@ mod planning;
 mod refusals;
 mod segmentation;
 mod shown;
+mod transferring;

@@ -1,8 +1,11 @@
 //! What a pushing scenario states about its task.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, within};
 use skills::tool_use::Orientation;
+use skills::transfer::{Side, TransferConfig};
 
 use crate::tasks::Stand;
 
@@ -25,6 +28,10 @@ pub struct PushConfig {
     /// How the tool is turned.
     #[serde(default)]
     pub orientation: Orientation,
+    /// Whether and how the skill is transferred to the scenario's tool: surfaces, places and order of the pushes are then
+    /// searched for; without it, the demonstrated sequence of surfaces is kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transfer: Option<TransferTask>,
     /// Speed of a push, m/s.
     #[serde(default = "default_push_speed")]
     pub push_speed_m_per_s: f64,
@@ -34,6 +41,18 @@ pub struct PushConfig {
     /// Time that the object is given to rest after the last contact, s.
     #[serde(default = "default_settle")]
     pub settle_s: f64,
+}
+
+/// How a skill is transferred to the scenario's tool.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TransferTask {
+    /// Angle at which the tool is held, rad.
+    pub tool_angle_rad: f64,
+    /// Side on which an obstacle is passed, by its name; as demonstrated if absent.
+    pub sides: BTreeMap<String, Side>,
+    /// How the plan is made.
+    pub planner: TransferConfig,
 }
 
 /// A tool waits on the table or beside it, m.
@@ -79,6 +98,10 @@ impl PushConfig {
         finite("goal_m", &self.goal_m)?;
         for (field, place) in [("home_m", self.home_m), ("park_m", self.park_m())] {
             place.iter().try_for_each(|value| within(field, *value, -FARTHEST_M, FARTHEST_M))?;
+        }
+        if let Some(transfer) = &self.transfer {
+            finite("transfer.tool_angle_rad", &[transfer.tool_angle_rad])?;
+            transfer.planner.validate().map_err(|error| error.within("transfer.planner"))?;
         }
         within("push_speed_m_per_s", self.push_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;
         within("free_speed_m_per_s", self.free_speed_m_per_s, SLOWEST_M_PER_S, FASTEST_M_PER_S)?;

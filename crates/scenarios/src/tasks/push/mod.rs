@@ -4,6 +4,7 @@ mod config;
 mod demonstrations;
 mod judge;
 mod recorded;
+mod transferring;
 
 use nalgebra::{DVector, Isometry2, Point2, Vector2};
 use robot::Manipulator;
@@ -17,6 +18,7 @@ use sim::random::{Purpose, stream};
 use sim::sensing::Camera;
 use skills::plan::{Action, Plan, Track};
 use skills::tool_use::{LearningReport, PushProblem, SkillLibrary};
+use skills::transfer::Transfer;
 
 pub use config::PushConfig;
 pub(crate) use recorded::read as read_demonstration;
@@ -54,6 +56,8 @@ pub struct Learned {
 /// A plan that the arm can carry out.
 pub struct Checked {
     plan: Plan,
+    /// What the plan was made of, if the skill was transferred.
+    transfer: Option<Transfer>,
     model: Manipulator,
     posture: DVector<f64>,
     /// The camera that has looked at the start.
@@ -118,6 +122,33 @@ impl<'a> PushTask<'a> {
             goal_world: self.config.goal_m.into(),
             control_period_s: self.period_s(),
         }
+    }
+
+    /// The arm with the tool in its hand.
+    fn model(&self) -> Result<Manipulator, StageError> {
+        let scenario = &self.scenario.scenario;
+        let robot = &scenario.robot;
+        let base = Isometry2::new(Vector2::from(robot.base_m), robot.base_angle_rad);
+        let (gravity, tool) = (scenario.world.gravity_m_per_s2, &self.scenario.tool);
+        arm_with_tool(&self.scenario.arm, &robot.tool_frame, tool, &base, gravity, &robot.rotor_inertia_kg_m2)
+            .map_err(broken)
+    }
+
+    /// A plan that keeps the demonstrated sequence of surfaces.
+    fn demonstrated_sequence(&self, skills: &Learned, start_world: Point2<f64>) -> Result<Plan, StageError> {
+        let problem = PushProblem {
+            start_world,
+            goal_world: self.config.goal_m.into(),
+            home_world: self.config.home_m.into(),
+            park_world: self.config.park_m().into(),
+            object: &self.scenario.scenario.object.shape,
+            tool: &self.scenario.tool,
+            orientation: self.config.orientation,
+            push_speed_m_per_s: self.config.push_speed_m_per_s,
+            free_speed_m_per_s: self.config.free_speed_m_per_s,
+            time_step_s: PLAN_STEP_S,
+        };
+        problem.plan(&skills.library).map_err(|error| StageError::Infeasible(error.to_string()))
     }
 
     fn controller(&self, joints: usize) -> Result<Box<dyn Controller>, StageError> {
@@ -197,36 +228,24 @@ impl Task for PushTask<'_> {
     fn plan(&self, skills: &Learned) -> Result<Checked, StageError> {
         let scenario = &self.scenario.scenario;
         let (camera, start_world) = self.look_first()?;
-        let problem = PushProblem {
-            start_world,
-            goal_world: self.config.goal_m.into(),
-            home_world: self.config.home_m.into(),
-            park_world: self.config.park_m().into(),
-            object: &scenario.object.shape,
-            tool: &self.scenario.tool,
-            orientation: self.config.orientation,
-            push_speed_m_per_s: self.config.push_speed_m_per_s,
-            free_speed_m_per_s: self.config.free_speed_m_per_s,
-            time_step_s: PLAN_STEP_S,
+        let model = self.model()?;
+        let (plan, transfer) = match &self.config.transfer {
+            None => (self.demonstrated_sequence(skills, start_world)?, None),
+            Some(config) => {
+                let transfer = transferring::plan(self, config, skills, start_world, &model)?;
+                (transfer.plan.clone(), Some(transfer))
+            }
         };
-        let plan = problem.plan(&skills.library).map_err(|error| StageError::Infeasible(error.to_string()))?;
         judge::check_plan(&plan, &self.scenario.tool, &scenario.object, &scenario.world)
             .map_err(StageError::Infeasible)?;
-        let robot = &scenario.robot;
-        let base = Isometry2::new(Vector2::from(robot.base_m), robot.base_angle_rad);
-        let gravity = scenario.world.gravity_m_per_s2;
-        let tool = &self.scenario.tool;
-        let model =
-            arm_with_tool(&self.scenario.arm, &robot.tool_frame, tool, &base, gravity, &robot.rotor_inertia_kg_m2)
-                .map_err(broken)?;
-        let posture = check_reach(&plan, &model, &robot.tool_frame).map_err(infeasible)?;
+        let posture = check_reach(&plan, &model, &scenario.robot.tool_frame).map_err(infeasible)?;
         let controller = self.controller(model.joint_count())?;
         let mut workspace = model.workspace();
         controller
             .check_stability(&mut workspace, &posture, self.period_s())
             .map_err(|error| StageError::Input(error.within("controller").to_string()))?;
         let controller_notes = controller.describe(&mut workspace, &posture, self.period_s());
-        Ok(Checked { plan, model, posture, camera, controller_notes })
+        Ok(Checked { plan, transfer, model, posture, camera, controller_notes })
     }
 
     fn simulate(&self, checked: &Checked, observer: &mut dyn Observer) -> Result<Episode, StageError> {
@@ -256,6 +275,10 @@ impl Task for PushTask<'_> {
         notes
             .extend(skills.report.left_out.iter().map(|(name, why)| format!("demonstrations: left out {name}: {why}")));
         let mut measures = judge::measures(self, &checked.plan, episode);
+        if let Some(transfer) = &checked.transfer {
+            measures.extend(transferring::measures(transfer));
+            notes.extend(transferring::notes(transfer, &self.scenario.tool));
+        }
         measures.extend(judge::demonstration_measures(shown.failed.len(), &skills.report));
         let failures = episode.interruption.iter().cloned().collect();
         Outcome::judged(self.scenario, self.seed, measures, failures, notes, episode.digest.clone())

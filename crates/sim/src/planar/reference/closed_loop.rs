@@ -139,7 +139,8 @@ impl<'a> ClosedLoop<'a> {
             push.to_world,
             direction,
             surface.curvature_radius_m(),
-            surface.length_m() / 2.0,
+            // what is left of the surface to the nearer side
+            surface.length_m() / 2.0 - push.place_m.abs(),
             self.object_radius_m,
             self.friction_length_m,
         );
@@ -171,7 +172,7 @@ impl<'a> ClosedLoop<'a> {
     fn push(&mut self, action: &Action, local_s: f64, pose: &Isometry2<f64>) -> bool {
         let Some((push, steering, direction)) = &self.steering else { return true };
         let Some(surface) = self.tool.surfaces.get(push.surface) else { return true };
-        let middle = surface.middle();
+        let middle = surface.contact_at(push.place_m);
         let normal = pose.rotation * middle.normal;
         let object = self.tracker.object_world();
         let left_m = (push.to_world - object).dot(direction) - STOP_EARLY_M;

@@ -11,8 +11,7 @@ const RADIUS_M: f64 = 0.012;
 /// A bar along x that pushes backward with its lower side and forward with its upper one.
 fn bar() -> Tool {
     let shape = Outline::Box { width_m: 0.04, height_m: 0.01 };
-    let face =
-        |name: &str, start_m, end_m| ContactSurface { name: name.into(), shape: SurfaceShape::Face { start_m, end_m } };
+    let face = |name: &str, start_m, end_m| ContactSurface::new(name, SurfaceShape::Face { start_m, end_m });
     Tool {
         name: "bar".into(),
         description: String::new(),
