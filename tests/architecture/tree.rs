@@ -8,6 +8,7 @@ const HELD: &[(&str, &str)] = &[
     ("assets", "What scenarios name; sources in assets/README.md."),
     ("assets/demonstrations", "Recorded demonstrations, one CSV file each."),
     ("assets/robots", "Arms, as URDF files."),
+    ("assets/skills", "Learned skills, as `wield learn` writes them."),
     ("assets/tools", "Tools: outlines and contact surfaces."),
     ("crates", "The code: each crate uses only those below it."),
     ("docs", "Pictures of this page."),

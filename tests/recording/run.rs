@@ -25,6 +25,7 @@ pub fn scenario() -> ResolvedScenario {
         demonstration_tool: tool,
         arm: robot::Manipulator::from_urdf_str(&read("assets/robots/planar_3r.urdf")).unwrap(),
         recorded: Vec::new(),
+        learned: None,
         source,
     }
 }

@@ -1,4 +1,45 @@
 //! Movement primitives and tool-use skills: trajectories in, trajectories out.
+//!
+//! No files, no clock, no physics engine, no threads: equal input gives equal bits. What is there, from the ground up:
+//!
+//! | module | what it does | paper |
+//! |---|---|---|
+//! | [`primitive`] | learns motions from demonstrations and rolls them out to other starts, goals and durations: [`Dmp`], kernelized, generalizing by leave-one-out, position and orientation under one phase | (1)–(5) |
+//! | [`regression`] | fits the forcing term: ridge, locally weighted, recursive sample by sample | (4) |
+//! | [`coupling`] | laws of an additional term Δu: obstacles, potential fields, two arms | (6) |
+//! | [`separation`] | takes constraints out of demonstrations, by a model of them or by bounds; says when the data cannot tell | (7)–(21) |
+//! | [`corridor`], [`corridor_map`] | bounds over time, and the map between them and free space | (16)–(20) |
+//! | [`corridor_filter`] | keeps a motion inside a corridor, with a certificate that holds between samples | (29)–(32), Theorem 1 |
+//! | [`tool_flipping`] | changes the contact of tool and object without a collision, certified | (22)–(28) |
+//! | [`plan`] | chains actions and verifies continuity, contacts and clearances | Sec. IV.A.3 |
+//! | [`tool_use`], [`transfer`] | learns pushing from demonstrations, plans with the same tool or with another one | Sec. III, IV.A |
+//! | [`baseline`] | RRT* and two-level tool planning, to compare with | Sec. IV.B |
+//!
+//! # Example
+//!
+//! Learn a motion from one demonstration, move it to a new goal, and keep it inside a corridor:
+//!
+//! ```
+//! use nalgebra::{DMatrix, dvector};
+//! use skills::corridor::Corridor;
+//! use skills::corridor_filter::{CorridorFilterConfig, FilterRequest, constrain};
+//! use skills::{Dmp, DmpConfig, MovementPrimitive, RolloutRequest, Trajectory};
+//!
+//! // one second of a demonstration at 100 Hz, two coordinates, m
+//! let shown = DMatrix::from_fn(101, 2, |row, k| {
+//!     let t = row as f64 / 100.0;
+//!     if k == 0 { 0.3 * t } else { 0.1 * (std::f64::consts::PI * t).sin().powi(2) }
+//! });
+//! let skill = Dmp::learn(&DmpConfig::default(), &[Trajectory::uniform(0.01, shown)?])?;
+//!
+//! let request = RolloutRequest::new(dvector![0.0, 0.0], dvector![0.4, 0.02], 1.5, 0.01);
+//! let motion = skill.rollout(&request)?;
+//!
+//! let corridor = Corridor::still(&[-0.1, -0.05], &[0.5, 0.08])?;
+//! let kept = constrain(&CorridorFilterConfig::default(), &motion, &corridor, &FilterRequest::of(&request))?;
+//! assert!(kept.certificate.holds());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod baseline;
 pub mod basis;

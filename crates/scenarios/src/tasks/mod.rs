@@ -62,7 +62,12 @@ pub trait Task {
     ///
     /// # Errors
     /// A [`StageError`] if skills of this kind cannot be kept.
-    fn save(&self, skills: &Self::Skills) -> Result<SkillsFile, StageError>;
+    fn save(&self, skills: &Self::Skills) -> Result<SkillsFile, StageError> {
+        let _ = skills;
+        Err(StageError::Input(
+            "skills of tasks of this kind cannot be kept in a file; expected a task that can, such as push".into(),
+        ))
+    }
 
     /// Plans the task with the skills, and checks that the arm can carry the plan out.
     ///

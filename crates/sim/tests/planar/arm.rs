@@ -171,6 +171,38 @@ fn a_constant_tip_force_leaves_the_error_of_the_law() {
     assert_relative_eq!(posture() - &state.q, expected, max_relative = 1e-3);
 }
 
+/// Largest joint error, rad, of a reference at rest held for a second from an error of 1 mrad, the torque of (34) entering
+/// the plant of (33) with `sign`; Euler steps of the plant itself, without an engine.
+fn held(sign: f64) -> f64 {
+    const STEP_S: f64 = 1e-4;
+    let model = model(0.01);
+    let mut controller = Impedance::new(&paper(), 3).expect("valid gains");
+    let mut workspace = model.workspace();
+    let wanted = JointReference::at_rest(posture());
+    let mut state = JointState::at_rest(posture() + DVector::repeat(3, 1e-3));
+    let (mut torque, mut acceleration) = (DVector::zeros(3), DVector::zeros(3));
+    let mut largest: f64 = 0.0;
+    for _ in 0..10_000 {
+        controller.torque(&mut workspace, &state, &wanted, &mut torque).expect("three joints");
+        workspace.set_state(&state.q, &state.dq).expect("three joints");
+        workspace.forward_dynamics_into(&(&torque * sign), &mut acceleration).expect("three joints");
+        state.dq += &acceleration * STEP_S;
+        state.q += &state.dq * STEP_S;
+        largest = largest.max((&wanted.q - &state.q).amax());
+        if largest > 1.0 {
+            break;
+        }
+    }
+    largest
+}
+
+#[test]
+fn e14_the_sign_printed_in_equation_33_feeds_back_positively_and_the_used_one_does_not() {
+    // printed, unit inertia, no force: s² − (k_e + ξ)s − k_e ξ has a positive root for all gains
+    assert!(held(-1.0) > 1.0);
+    assert!(held(1.0) <= 1e-3 * (1.0 + 1e-9));
+}
+
 #[test]
 fn gains_beyond_the_sampled_bound_are_refused_and_do_diverge() {
     let bare = model(0.0);

@@ -1,3 +1,5 @@
+//! Smoothed bounds: inside the given ones at all times, and where they are floored.
+
 use approx::assert_abs_diff_eq;
 use nalgebra::DMatrix;
 use proptest::prelude::*;

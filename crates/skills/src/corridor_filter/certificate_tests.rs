@@ -1,3 +1,5 @@
+//! Certificates: what is crossed between samples is found, and closed forms are met.
+
 use approx::assert_abs_diff_eq;
 use nalgebra::{DMatrix, dmatrix, dvector};
 

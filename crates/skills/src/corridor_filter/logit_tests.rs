@@ -1,3 +1,5 @@
+//! The logit law: never outside, the skill to the bit where it is well inside.
+
 use approx::assert_abs_diff_eq;
 use proptest::prelude::*;
 

@@ -1,3 +1,5 @@
+//! Theorem 1 as corrected: its Lyapunov function falls, and an implicit step always has a solution.
+
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use proptest::prelude::*;
 

@@ -1,3 +1,5 @@
+//! Hoffmann's obstacle term against the reference program and its closed-form properties.
+
 use std::f64::consts::PI;
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};

@@ -1,3 +1,5 @@
+//! Potential fields: forces against differences of the potential, and cases known by hand.
+
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 

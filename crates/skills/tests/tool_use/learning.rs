@@ -1,10 +1,11 @@
 //! What is learned is what was shown, and what does not fit is left out by name.
 
 use approx::assert_relative_eq;
-use nalgebra::Vector2;
-use skills::PrimitiveConfig;
+use nalgebra::{Point2, Vector2, dvector};
 use skills::demonstration::Demonstration;
-use skills::tool_use::{LearnError, LearningReport, SkillLibrary};
+use skills::primitive::SavedPrimitive;
+use skills::tool_use::{LearnError, LearningReport, SavedLibrary, SkillLibrary};
+use skills::{PrimitiveConfig, RolloutRequest};
 
 use crate::shown::{HEAD, SIDE, Script, disc, stick};
 
@@ -108,4 +109,67 @@ fn a_recording_that_begins_and_ends_within_a_push_is_learned() {
     assert_eq!((library.pushes.len(), library.flips.len()), (1, 2));
     // there is no way before and after: the tool is where it is
     assert!(library.flips.iter().all(|flip| flip.length_m < SMEARED_M));
+}
+
+/// Largest distance of the points of a path from the straight line between its ends, m.
+fn bulge_m(path: &[Point2<f64>]) -> f64 {
+    let (from, to) = (path[0], path[path.len() - 1]);
+    let left = Vector2::new(from.y - to.y, to.x - from.x).normalize();
+    path.iter().map(|point| (point - from).dot(&left).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_intention_is_freed_from_the_surface_that_was_shown() {
+    let scripts =
+        [0.0, 0.003, -0.003].map(|shift| Script { start: Point2::new(0.060 + shift, 0.055), ..Script::default() });
+    let demonstrations: Vec<_> = scripts.iter().map(|script| shown("shown", script)).collect();
+    let (library, _) = learn(&demonstrations).unwrap();
+    let intention = &library.intention;
+    assert_eq!((intention.shown.len(), intention.unconstrained.len()), (3, 3));
+    for (shown, freed) in intention.shown.iter().zip(&intention.unconstrained) {
+        // ends stay where they were shown
+        let ends = [(shown[0], freed.start()), (shown[shown.len() - 1], freed.end())];
+        for (shown, freed) in ends {
+            assert_relative_eq!(shown.coords, Vector2::new(freed[0], freed[1]), epsilon = 1e-4);
+        }
+    }
+    let request = RolloutRequest::new(dvector![0.06, 0.055], dvector![-0.06, 0.13], intention.duration_s, 0.01);
+    let path = intention.primitive.rollout(&request).unwrap().into_positions();
+    let points: Vec<_> = path.samples().row_iter().map(|row| Point2::new(row[0], row[1])).collect();
+    // it keeps the corner that was shown: two legs of 120 and 75 mm lie 63 mm off the straight line at their corner
+    assert_relative_eq!(bulge_m(&points), 0.12 * 0.075 / 0.12f64.hypot(0.075), max_relative = 0.05);
+}
+
+#[test]
+fn a_library_read_back_from_text_moves_to_the_same_bits() {
+    let (library, _) = learn(&[shown("shown", &Script::default())]).unwrap();
+    let text = serde_json::to_string(&library.saved(&stick())).unwrap();
+    let saved: SavedLibrary = serde_json::from_str(&text).unwrap();
+    let restored = saved.clone().restore(&stick()).unwrap();
+    assert_eq!(restored.saved(&stick()), saved);
+    let request = RolloutRequest::new(dvector![0.0, 0.0], dvector![-0.1, 0.01], 3.0, 0.002);
+    let primitives = |library: &SkillLibrary| {
+        let pushes = library.pushes.iter().map(|push| push.primitive.rollout(&request).unwrap());
+        let flips = library.flips.iter().map(|flip| flip.primitive.rollout(&request).unwrap());
+        pushes.chain(flips).chain([library.intention.primitive.rollout(&request).unwrap()]).collect::<Vec<_>>()
+    };
+    assert_eq!(primitives(&restored), primitives(&library));
+}
+
+#[test]
+fn saved_skills_that_cannot_be_are_refused_by_field() {
+    let (library, _) = learn(&[shown("shown", &Script::default())]).unwrap();
+    let refused = |change: &dyn Fn(&mut SavedLibrary)| {
+        let mut saved = library.saved(&stick());
+        change(&mut saved);
+        saved.restore(&stick()).err().unwrap().to_string()
+    };
+    assert!(refused(&|saved| saved.pushes[0].surface = "sied".into()).contains("pushes.0.surface: found \"sied\""));
+    assert!(refused(&|saved| saved.flips.truncate(1)).contains("flips: found 1 ways; expected 3"));
+    assert!(refused(&|saved| saved.pushes[1].duration_s = f64::NAN).contains("pushes.1.duration_s"));
+    let damaged = refused(&|saved| match &mut saved.pushes[0].path {
+        SavedPrimitive::Dmp(dmp) => dmp.weights[3][1] = f64::INFINITY,
+        other => panic!("{other:?}"),
+    });
+    assert!(damaged.contains("pushes.0.path") && damaged.contains("weights[3]"), "{damaged}");
 }

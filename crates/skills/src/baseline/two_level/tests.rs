@@ -1,3 +1,5 @@
+//! The tool level on paths known by hand: fewest changes of surface, and what cannot be pushed.
+
 use approx::assert_relative_eq;
 
 use super::*;

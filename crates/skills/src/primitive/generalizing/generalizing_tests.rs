@@ -1,3 +1,5 @@
+//! Generalization chosen from demonstrations whose rule is known.
+
 use approx::assert_relative_eq;
 use nalgebra::{DMatrix, DVector, Rotation2, Vector2, dvector};
 use proptest::prelude::*;

@@ -1,3 +1,5 @@
+//! The kernelized primitive: reproduction, via points, uncertainty, and derivatives against differences.
+
 use approx::{assert_abs_diff_eq, assert_relative_eq};
 use nalgebra::{DMatrix, DVector, dvector};
 use proptest::prelude::*;

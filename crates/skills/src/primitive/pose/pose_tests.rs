@@ -1,3 +1,5 @@
+//! The pose primitive: turns of any angle, invariance, and rates against differences.
+
 use std::f64::consts::{PI, TAU};
 
 use approx::{assert_abs_diff_eq, assert_relative_eq};
