@@ -73,7 +73,7 @@ pub struct Plan {
 const JOINT_TOLERANCE: f64 = 1e-4;
 
 impl Plan {
-    /// Chains actions.
+    /// Chains actions that meet in place and angle; [`Plan::verified`] asks for what else makes a strict chain.
     ///
     /// # Errors
     /// [`SkillError::Gap`] if one action does not begin where the one before ends, [`SkillError::RowCount`] without any or
@@ -107,6 +107,21 @@ impl Plan {
             })
             .collect();
         Ok(Self { actions, starts_s })
+    }
+
+    /// Chains actions and verifies the chain as [`Plan::verify`] does, so that what is built keeps continuity (C0 and C1),
+    /// timing, pre- and post-conditions; the report tells by how much.
+    ///
+    /// # Errors
+    /// As [`Plan::new`] and [`Plan::verify`].
+    pub fn verified(
+        actions: Vec<Action>,
+        setting: Option<&Setting<'_>>,
+        tolerances: &ChainTolerances,
+    ) -> Result<(Self, ChainReport), ChainError> {
+        let plan = Self::new(actions)?;
+        let report = plan.verify(setting, tolerances)?;
+        Ok((plan, report))
     }
 
     /// The actions in their order.

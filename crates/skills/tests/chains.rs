@@ -107,6 +107,8 @@ proptest! {
     fn random_chains_are_strict(pushes in pushes()) {
         let plan = chain(&pushes);
         prop_assert_eq!(verify(&plan), Ok(()));
+        let (built, report) = Plan::verified(plan.actions().to_vec(), None, &ChainTolerances::default()).unwrap();
+        prop_assert_eq!((&built, report.violations().count()), (&plan, 0));
         // minimum-jerk motions begin and end without acceleration: the chain is C2
         prop_assert!(plan.joints().iter().all(|joint| joint.tool.acceleration_m_per_s2 < 1e-9));
     }
@@ -142,8 +144,10 @@ proptest! {
         let mut motions = actions[index].tool.motions().to_vec();
         motions[0].velocity.x += beyond * ChainTolerances::default().velocity_m_per_s;
         actions[index].tool = Track::new(STEP_S, motions).unwrap();
-        let refused = verify(&Plan::new(actions).unwrap());
+        let refused = verify(&Plan::new(actions.clone()).unwrap());
         prop_assert!(matches!(refused, Err(ChainError::Joint { .. })), "{refused:?}");
+        // and never built by who asks for a strict chain
+        prop_assert_eq!(Plan::verified(actions, None, &ChainTolerances::default()).map(|_| ()), refused);
     }
 
     #[test]

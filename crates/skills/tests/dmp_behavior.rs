@@ -246,6 +246,14 @@ fn a_demonstration_whose_derivatives_overflow_is_refused() {
     assert!(matches!(error, SkillError::NonFinite { operation: "learn primitive", .. }));
 }
 
+// the speed at the end is saved with the primitive, and no file of one that is not finite could be read again
+#[test]
+fn a_demonstration_whose_speed_overflows_at_its_end_is_refused() {
+    let shown = Trajectory::uniform(1.0, DMatrix::from_fn(50, 2, |row, _| 1e298 * row as f64)).unwrap();
+    let refused = Dmp::learn(&DmpConfig::default(), &[shown]);
+    assert!(matches!(refused, Err(SkillError::InvalidArgument { argument: "end_speed", .. })), "{refused:?}");
+}
+
 #[test]
 fn no_demonstration_and_unequal_dimensions_are_refused() {
     let config = PrimitiveConfig::default();

@@ -24,8 +24,14 @@ const REFERENCE_SELF_MM: f64 = 0.21;
 /// What starting at rest may cost beyond the reference, mm: most demonstrations start in motion. The reference takes the
 /// start for a rest when it learns, so that it speeds up to catch up; the primitive here learns what was shown.
 const FROM_REST_MM: f64 = 0.03;
+/// Part of the reference's error that is left where a rollout starts with the velocity that was shown.
+const IN_MOTION: f64 = 0.2;
 /// Mean distance from the goal at T, mm: most demonstrations end in motion, where the forcing term fades before the end.
+/// The reference is nearer there, 0.026 mm.
 const END_MM: f64 = 0.25;
+/// Of the reference for a goal moved by half of the range: peak acceleration over that of the demonstration, and
+/// distortion of the shape, of the range.
+const REFERENCE_MOVED: [f64; 2] = [1.55, 0.099];
 /// As above: a demonstration foretold from the six others, mm.
 const REFERENCE_LEFT_OUT_MM: f64 = 4.50;
 /// As above: a demonstration foretold from the mean of all seven, mm.
@@ -147,7 +153,7 @@ fn mean(values: &[f64]) -> f64 {
 /// Protocol A: each demonstration reproduced by a primitive learned from it alone; from rest as by the reference, and with
 /// the velocity it started with.
 #[test]
-fn demonstrations_are_reproduced_as_closely_as_by_the_reference() {
+fn demonstrations_are_reproduced_about_as_closely_as_by_the_reference_from_rest_and_closer_in_motion() {
     let Some(shapes) = shapes() else { return };
     for (kind, config) in kinds().into_iter().take(2) {
         for (start, moving) in [("at rest", false), ("in motion", true)] {
@@ -168,7 +174,7 @@ fn demonstrations_are_reproduced_as_closely_as_by_the_reference() {
             errors.print(&format!("A self {start}, mm"), kind);
             ends.print(&format!("A self {start}, end"), kind);
             if kind == "dmp" {
-                let most = if moving { 0.2 * REFERENCE_SELF_MM } else { REFERENCE_SELF_MM + FROM_REST_MM };
+                let most = if moving { IN_MOTION * REFERENCE_SELF_MM } else { REFERENCE_SELF_MM + FROM_REST_MM };
                 assert!(errors.mean() <= most, "{start}: {}", errors.mean());
             }
         }
@@ -242,7 +248,7 @@ fn a_goal_that_another_hand_reached_is_foretold_better_than_by_the_reference() {
 
 /// Protocol E: the goal moved by half of the range in eight directions.
 #[test]
-fn a_goal_moved_far_away_is_reached_with_the_shape_kept() {
+fn a_goal_moved_far_away_is_reached_gently_and_by_the_similarity_with_the_shape_kept() {
     let Some(shapes) = shapes() else { return };
     for (kind, config) in kinds().into_iter().filter(|(kind, _)| !["linear", "local", "chosen"].contains(kind)) {
         let [mut ends, mut peaks, mut distortions] = [(); 3].map(|()| Errors::default());
@@ -270,6 +276,10 @@ fn a_goal_moved_far_away_is_reached_with_the_shape_kept() {
         peaks.print("E peak acceleration, x", kind);
         distortions.print("E distortion, of range", kind);
         assert!(ends.mean() < END_MM, "{kind}: {}", ends.mean());
+        let [reference_peak, reference_distortion] = REFERENCE_MOVED;
+        assert!(peaks.mean() < reference_peak, "{kind}: {}", peaks.mean());
+        // the others keep what is added to the straight way, not the shape
+        assert!(kind != "similarity" || distortions.mean() < 0.2 * reference_distortion, "{}", distortions.mean());
     }
 }
 

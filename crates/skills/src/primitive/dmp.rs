@@ -99,6 +99,15 @@ impl Dmp {
         let ends: Vec<(f64, bool)> = counted.map(|(shown, _)| learning::end_speed(shown)).collect();
         let fades_before_end = ends.iter().any(|(_, rests)| !rests);
         let end_speed = ends.iter().map(|(speed, _)| *speed).fold(0.0, f64::max);
+        if !end_speed.is_finite() {
+            let (argument, expected) = ("end_speed", "samples whose speeds do not overflow");
+            return Err(SkillError::InvalidArgument {
+                operation: "learn primitive",
+                argument,
+                found: end_speed,
+                expected,
+            });
+        }
         Ok(Self {
             form: config.form,
             attractor: Attractor::new(config.alpha),

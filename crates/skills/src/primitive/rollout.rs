@@ -54,11 +54,12 @@ impl RolloutRequest {
     }
 
     /// Returns the steps of a rollout, s: `time_step_s` until T, one shorter step onto T if T is no multiple of it, then
-    /// `time_step_s` again until the settling time has passed.
+    /// `time_step_s` again until the settling time has passed. Those of a request that [`RolloutRequest::validate`] refuses
+    /// mean nothing, but are no more than two million.
     pub fn time_steps_s(&self) -> impl Iterator<Item = f64> + use<> {
         let step_s = self.time_step_s;
         let (whole, rest_s) = self.whole_steps();
-        let settling = (self.settle_s / step_s - WHOLE_STEP).ceil().max(0.0) as usize;
+        let settling = (self.settle_s / step_s - WHOLE_STEP).ceil().clamp(0.0, MOST_STEPS) as usize;
         std::iter::repeat_n(step_s, whole).chain(rest_s).chain(std::iter::repeat_n(step_s, settling))
     }
 
@@ -80,7 +81,7 @@ impl RolloutRequest {
     // the number of whole steps within T, and the shorter step that is left
     fn whole_steps(&self) -> (usize, Option<f64>) {
         let ratio = self.duration_s / self.time_step_s;
-        let whole = (ratio + WHOLE_STEP).floor();
+        let whole = (ratio + WHOLE_STEP).floor().min(MOST_STEPS);
         let rest_s = (ratio - whole > WHOLE_STEP).then_some(self.duration_s - whole * self.time_step_s);
         (whole as usize, rest_s)
     }
@@ -202,6 +203,13 @@ mod tests {
         let mut infinite = request(1.0, 0.1, 0.0);
         infinite.goal[0] = f64::INFINITY;
         assert_eq!(named(infinite), "goal");
+    }
+
+    #[test]
+    fn times_of_a_request_that_is_none_are_no_more_than_two_million() {
+        for none in [request(1.0, 0.0, 1.0), request(1.0, f64::NAN, 0.0), request(f64::INFINITY, 0.1, f64::INFINITY)] {
+            assert!(none.time_steps_s().count() <= 2_000_001);
+        }
     }
 
     #[test]

@@ -81,6 +81,16 @@ fn the_published_law_leaves_about_as_often_as_an_unfiltered_skill() {
 }
 
 #[test]
+fn the_published_law_leaves_about_as_often_with_a_smaller_weight_and_always_where_it_is_stiff_for_its_steps() {
+    let light = CorridorFilterConfig::Published(Published { k_n: 0.1, ..Published::default() });
+    for (found, expected) in rates(&light, 0.01, 3.0 * DURATION_S).into_iter().zip([0.177, 0.730, 0.857]) {
+        assert!((found - expected).abs() <= RATE, "{found} for {expected}");
+    }
+    let stiff = CorridorFilterConfig::Published(Published { k_z: 100.0, ..Published::default() });
+    assert_eq!(rates(&stiff, 0.05, 3.0 * DURATION_S), [1.0; 3]);
+}
+
+#[test]
 fn the_published_law_breaks_skills_that_were_safe() {
     let law = CorridorFilterConfig::Published(Published { k_n: 0.1, ..Published::default() });
     let breaks = |case: &&Case| {

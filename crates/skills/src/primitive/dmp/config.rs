@@ -28,7 +28,7 @@ pub struct DmpConfig {
     pub form: DmpForm,
     /// Number n of bases, 2 to 1000.
     pub bases: usize,
-    /// Stiffness α of Eq. (1), without unit; β = α/4, so that the attractor is critically damped.
+    /// Stiffness α of Eq. (1), without unit, 1e-6 to 1e4; β = α/4, so that the attractor is critically damped.
     pub alpha: f64,
     /// Decay γ of Eq. (3), without unit, 0.1 to 20; the phase ends at e^{−γ}.
     pub gamma: f64,
@@ -60,8 +60,7 @@ impl DmpConfig {
     pub fn validate(&self) -> Result<(), FieldError> {
         let bases = (2..=1000).contains(&self.bases);
         check(bases, "bases", self.bases, "a whole number from 2 to 1000")?;
-        let alpha = self.alpha > 0.0 && self.alpha <= 1e4;
-        check(alpha, "alpha", self.alpha, "a number above 0 and at most 10000")?;
+        check((1e-6..=1e4).contains(&self.alpha), "alpha", self.alpha, "a number from 0.000001 to 10000")?;
         check((0.1..=20.0).contains(&self.gamma), "gamma", self.gamma, "a number from 0.1 to 20")?;
         self.regression.validate().map_err(|error| error.within("regression"))?;
         let crossing = self.crossing();
@@ -104,6 +103,8 @@ mod tests {
     fn an_invalid_option_is_named_by_its_path() {
         assert_eq!(field(DmpConfig { bases: 1, ..DmpConfig::default() }), "dmp.bases");
         assert_eq!(field(DmpConfig { alpha: f64::NAN, ..DmpConfig::default() }), "dmp.alpha");
+        // its square, by which the closed form of the step divides, underflows
+        assert_eq!(field(DmpConfig { alpha: 1e-170, ..DmpConfig::default() }), "dmp.alpha");
         assert_eq!(field(DmpConfig { gamma: 0.0, ..DmpConfig::default() }), "dmp.gamma");
         assert_eq!(field(DmpConfig { overlap: Some(1.0), ..DmpConfig::default() }), "dmp.overlap");
         let regression = RegressionConfig::Ridge(Ridge { lambda: -1.0 });

@@ -6,6 +6,8 @@ use proptest::prelude::*;
 
 /// What a contact may miss the outline by, m: chords stand up to 0.02 mm off their arc.
 const OFF_OUTLINE_M: f64 = 2.1e-5;
+/// Length of a step out of a tool, m.
+const STEP_OUT_M: f64 = 2e-4;
 
 /// The valid tool of a shape, weighing 10 g.
 pub(super) fn tool(shape: &dyn ToolShape) -> Tool {
@@ -56,14 +58,16 @@ fn ell() -> impl Strategy<Value = ToolFamily> {
     let shares = (ranged(0.1, 1.0), ranged(0.1, 1.0), ranged(0.1, 1.0), ranged(-0.5, 1.0));
     (ranged(0.02, 0.2), ranged(0.02, 0.2), ranged(0.006, 0.015), shares).prop_map(
         |(arm_m, stem_m, thickness_m, (bottom, tip, top, stem))| {
+            // nearer to the inner corner than a step the other leg is before the surface
+            let [arm_side_m, stem_side_m] = [arm_m, stem_m].map(|outer_m| outer_m - thickness_m - STEP_OUT_M);
             ToolFamily::L(Ell {
                 arm_m,
                 stem_m,
                 thickness_m,
-                bottom_length_m: (bottom * (arm_m - thickness_m)).max(SHORTEST_FACE_M),
+                bottom_length_m: (bottom * arm_side_m).max(SHORTEST_FACE_M),
                 tip_length_m: tip * thickness_m,
                 top_length_m: top * arm_m,
-                stem_length_m: if stem < 0.1 { 0.0 } else { (stem * (stem_m - thickness_m)).max(SHORTEST_FACE_M) },
+                stem_length_m: if stem < 0.1 { 0.0 } else { (stem * stem_side_m).max(SHORTEST_FACE_M) },
             })
         },
     )
@@ -142,8 +146,8 @@ proptest! {
                 let off_m = tool.signed_distance_m(&contact.point);
                 prop_assert!(off_m.abs() < OFF_OUTLINE_M, "{}: {off_m} m off the outline", surface.name);
                 // a step out along the normal is that far from the tool: the normal is outward and nothing is before it
-                let out_m = tool.signed_distance_m(&(contact.point + contact.normal.into_inner() * 2e-4));
-                prop_assert!((out_m - 2e-4).abs() < OFF_OUTLINE_M, "{}: {out_m} m", surface.name);
+                let out_m = tool.signed_distance_m(&(contact.point + contact.normal.into_inner() * STEP_OUT_M));
+                prop_assert!((out_m - STEP_OUT_M).abs() < OFF_OUTLINE_M, "{}: {out_m} m", surface.name);
             }
         }
     }
