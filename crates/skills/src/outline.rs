@@ -3,6 +3,7 @@
 //! An outline is described once and used twice: for distances when a plan is made and as a collider when it is simulated.
 
 mod area;
+mod convex;
 mod distance;
 mod spread;
 
@@ -10,6 +11,7 @@ use nalgebra::{Isometry2, Point2, Vector2};
 use parry2d::shape::SharedShape;
 use serde::{Deserialize, Serialize};
 
+pub(crate) use convex::{Convex, Gap, gap};
 pub use distance::separation_m;
 
 use crate::field::{FieldError, finite, positive};

@@ -85,3 +85,48 @@ impl Reach for ArmReach {
         [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].into_iter().all(|offset| self.is_reached(corner(offset)))
     }
 }
+
+#[cfg(test)]
+#[expect(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+mod tests {
+    use super::*;
+
+    /// Links of 240, 220 and 60 mm, the base at the origin, the flange along +y at angle 0.
+    fn reach() -> ArmReach {
+        let model = Manipulator::from_urdf_str(include_str!("../../../../assets/robots/planar_3r.urdf")).unwrap();
+        ArmReach::new(&model, "flange").unwrap()
+    }
+
+    fn pose(x: f64, y: f64, angle_rad: f64) -> Isometry2<f64> {
+        Isometry2::new(nalgebra::Vector2::new(x, y), angle_rad)
+    }
+
+    #[test]
+    fn the_wrist_reaches_as_far_as_two_links_and_no_farther() {
+        let reach = reach();
+        // the wrist is 60 mm behind the flange and reaches 460 mm
+        assert!(reach.holds(&pose(0.10, 0.36, 0.0)) && reach.holds(&pose(0.0, 0.505, 0.0)));
+        assert!(!reach.holds(&pose(0.0, 0.53, 0.0)));
+        // turned back, the same place is out of reach of the wrist
+        assert!(!reach.holds(&pose(0.0, 0.43, std::f64::consts::PI)));
+    }
+
+    #[test]
+    fn a_place_counts_only_if_all_places_of_the_grid_around_it_do() {
+        let reach = reach();
+        // between a row that is reached and one that is not: the stretched arm ends at 520 mm
+        assert!(!reach.holds(&pose(0.0, 0.522, 0.0)));
+        assert_eq!(reach.holds(&pose(0.101, 0.361, 0.0)), reach.holds(&pose(0.104, 0.364, 0.004)));
+    }
+
+    #[test]
+    fn what_was_asked_once_is_remembered() {
+        let reach = reach();
+        reach.holds(&pose(0.102, 0.362, 0.0));
+        let known = reach.solver.borrow().known.len();
+        assert_eq!(known, 4);
+        reach.holds(&pose(0.103, 0.363, 0.001));
+        assert_eq!(reach.solver.borrow().known.len(), known);
+        assert!(format!("{reach:?}").contains("known_poses: 4"));
+    }
+}

@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry2, Point2, Vector2};
 
-use super::{Outline, edges};
+use super::{Convex, Outline, edges, gap};
 
 impl Outline {
     /// Distance of the centroid from the nearest side, m: the radius of the largest disc about it inside the outline.
@@ -35,19 +35,20 @@ impl Outline {
         }
     }
 
-    /// Whether something flat that touches from the direction `angle_rad` lies against a side to within `within_rad`;
-    /// a disc is alike from everywhere.
+    /// Ends of the side whose outward normal is nearest to `direction` (unit vector, the outline's frame), m, if it is so
+    /// to within `within_rad`: something flat that touches from there lies against it. A disc has none.
     #[must_use]
-    pub fn has_side_towards(&self, angle_rad: f64, within_rad: f64) -> bool {
+    pub fn side_towards(&self, direction: &Vector2<f64>, within_rad: f64) -> Option<[Point2<f64>; 2]> {
         if matches!(self, Self::Disc { .. }) {
-            return true;
+            return None;
         }
-        let direction = Vector2::new(angle_rad.cos(), angle_rad.sin());
         let corners = self.drawing(0);
-        edges(&corners).any(|(a, b)| {
+        let off = |(a, b): &(Point2<f64>, Point2<f64>)| {
             let outward = Vector2::new((b - a).y, (a - b).x);
-            outward.perp(&direction).atan2(outward.dot(&direction)).abs() <= within_rad
-        })
+            outward.perp(direction).atan2(outward.dot(direction)).abs()
+        };
+        let nearest = edges(&corners).min_by(|first, second| off(first).total_cmp(&off(second)))?;
+        (off(&nearest) <= within_rad).then_some([nearest.0, nearest.1])
     }
 
     /// Signed distance of a point (in the outline's frame, m): negative inside.
@@ -64,20 +65,13 @@ impl Outline {
     }
 }
 
-/// Distance between two outlines at their poses, m: negative when they overlap; `None` if one is not a valid outline.
+/// Distance between two outlines at their poses, m: in overlap minus its depth; `None` if one is not a valid outline.
 #[must_use]
 pub fn separation_m(first: &Outline, pose1: &Isometry2<f64>, second: &Outline, pose2: &Isometry2<f64>) -> Option<f64> {
-    let (shape1, shape2) = (first.shape()?, second.shape()?);
-    let to_pose = |pose: &Isometry2<f64>| {
-        parry2d::math::Pose::new(
-            parry2d::math::Vector::new(pose.translation.x, pose.translation.y),
-            pose.rotation.angle(),
-        )
-    };
-    // a contact at any distance: unlike a distance, it also tells how deep two outlines overlap
-    let contact = parry2d::query::contact(&to_pose(pose1), shape1.as_ref(), &to_pose(pose2), shape2.as_ref(), f64::MAX)
-        .ok()??;
-    Some(contact.dist)
+    first.validate().and(second.validate()).ok()?;
+    let first_from_second = pose1.inv_mul(pose2);
+    let found = gap(&Convex::new(first), &Convex::new(second), |corner| first_from_second * corner);
+    Some(found.distance_m)
 }
 
 fn polygon_distance(vertices: &[[f64; 2]], point: &Point2<f64>) -> f64 {
@@ -104,6 +98,15 @@ mod tests {
         assert_relative_eq!(triangle.inscribed_radius_m(), 0.8, epsilon = 1e-12);
         assert_relative_eq!(Outline::Box { width_m: 3.0, height_m: 1.0 }.inscribed_radius_m(), 0.5);
         assert_relative_eq!(Outline::Disc { radius_m: 0.012 }.inscribed_radius_m(), 0.012);
+    }
+
+    #[test]
+    fn the_side_of_a_box_is_found_from_its_direction() {
+        let flat = Outline::Box { width_m: 4.0, height_m: 2.0 };
+        let [a, b] = flat.side_towards(&Vector2::new(0.005, 1.0).normalize(), 0.01).unwrap();
+        assert_eq!((a, b), (Point2::new(2.0, 1.0), Point2::new(-2.0, 1.0)));
+        assert_eq!(flat.side_towards(&Vector2::new(0.02, 1.0).normalize(), 0.01), None);
+        assert_eq!(Outline::Disc { radius_m: 1.0 }.side_towards(&Vector2::x(), 0.01), None);
     }
 
     #[test]

@@ -133,6 +133,15 @@ impl Flip {
         self.duration_s
     }
 
+    /// Returns the same flip at another speed; its way and its certificate do not depend on the duration.
+    ///
+    /// # Errors
+    /// A [`FlipError`] if the duration is not positive.
+    pub fn with_duration_s(self, duration_s: f64) -> Result<Self, FlipError> {
+        positive("duration_s", duration_s)?;
+        Ok(Self { duration_s, ..self })
+    }
+
     /// Evaluates the object's motion in the tool's frame (x, y in m, angle in rad) at a time, s; at rest outside.
     #[must_use]
     pub fn object_in_tool(&self, time_s: f64) -> PlanarMotion {

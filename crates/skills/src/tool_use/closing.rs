@@ -1,9 +1,11 @@
 //! Motions that arrive exactly: what a rolled-out primitive leaves at its end is taken up on the way there.
 
-use nalgebra::{Isometry2, Point2, Rotation2, Vector3};
+use nalgebra::{Isometry2, Point2, Rotation2, Vector2, Vector3};
 
 use crate::plan::{PlanarMotion, Track};
-use crate::time_law::{MinimumJerkTransfer, PathState};
+use crate::time_law::{
+    MinimumJerkTransfer, PathState, minimum_jerk, minimum_jerk_first_derivative, minimum_jerk_second_derivative,
+};
 
 /// What is left at the end of a motion is taken up over this last share of it.
 const CLOSING_SHARE: f64 = 0.3;
@@ -53,6 +55,36 @@ pub(super) fn turned(
     }
 }
 
+/// A motion with all its lengths multiplied by `share`; angles stay.
+pub(super) fn shrunk(motion: &PlanarMotion, share: f64) -> PlanarMotion {
+    let shrink = Vector3::new(share, share, 1.0);
+    PlanarMotion {
+        position: motion.position.component_mul(&shrink),
+        velocity: motion.velocity.component_mul(&shrink),
+        acceleration: motion.acceleration.component_mul(&shrink),
+    }
+}
+
+/// Share of the largest speed with which a motion may go back: what a fit to a motion that begins at rest swings by.
+const BACKWARD_SHARE: f64 = 0.05;
+
+/// Whether motions never go back along `way`.
+pub(super) fn goes_on(motions: &[PlanarMotion], way: &Vector2<f64>) -> bool {
+    let speeds = || motions.iter().map(|motion| motion.velocity.xy().dot(way));
+    speeds().all(f64::is_finite)
+        && speeds().fold(f64::INFINITY, f64::min) >= -BACKWARD_SHARE * speeds().fold(0.0, f64::max)
+}
+
+/// The motion at time over duration `ratio` from rest to rest along a straight line, of minimum jerk.
+pub(crate) fn straight_on((from, to): &(Vector3<f64>, Vector3<f64>), ratio: f64, duration_s: f64) -> PlanarMotion {
+    let way = to - from;
+    PlanarMotion {
+        position: from + way * minimum_jerk(ratio),
+        velocity: way * (minimum_jerk_first_derivative(ratio) / duration_s),
+        acceleration: way * (minimum_jerk_second_derivative(ratio) / (duration_s * duration_s)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,6 +129,17 @@ mod tests {
             assert_relative_eq!(slope(|motion| motion.position), three[1].velocity, epsilon = 0.03);
             assert_relative_eq!(slope(|motion| motion.velocity), three[1].acceleration, epsilon = 5.0);
         }
+    }
+
+    #[test]
+    fn a_motion_that_turns_back_is_told_from_one_that_hesitates() {
+        let along = Vector2::new(3.0, 4.0);
+        let with = |speeds: [f64; 3]| {
+            let motion = |speed: f64| PlanarMotion { velocity: (along * speed).push(0.0), ..PlanarMotion::default() };
+            goes_on(&speeds.map(motion), &along)
+        };
+        assert!(with([0.0, 1.0, 0.0]) && with([-0.04, 1.0, 0.0]));
+        assert!(!with([-0.06, 1.0, 0.0]) && !with([0.0, f64::NAN, 0.0]));
     }
 
     #[test]

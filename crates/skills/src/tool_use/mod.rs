@@ -4,12 +4,14 @@ mod closing;
 mod intention;
 mod legs;
 mod library;
+mod operating;
 mod planning;
 mod refusal;
 mod routing;
 mod saved;
 mod ways;
 
+pub(crate) use closing::straight_on;
 pub use intention::Intention;
 pub use legs::{Undivided, divide};
 pub use library::{LearningReport, ObjectOperatingSkill, SkillLibrary, ToolFlippingSkill};

@@ -14,7 +14,7 @@ use super::routing::Surroundings;
 use super::ways::{ROUND_M, round_object};
 use crate::error::SkillError;
 use crate::outline::Outline;
-use crate::plan::{Action, ActionKind, Plan, PlanarMotion, Push, Track};
+use crate::plan::{Action, ActionKind, Plan, PlanarMotion, Track};
 use crate::primitive::{MovementPrimitive, RolloutRequest};
 use crate::tool::{Contact, ContactSurface, Tool};
 
@@ -55,7 +55,7 @@ pub struct PushProblem<'a> {
 }
 
 /// Gap between tool and object at the end of an approach, m: the push closes it.
-const APPROACH_GAP_M: f64 = 0.001;
+pub(super) const APPROACH_GAP_M: f64 = 0.001;
 /// Shortest push worth a hold of its own, m: twice what a camera is usually off by. What is shorter is left out.
 const SHORTEST_PUSH_M: f64 = 0.002;
 /// A motion has at least this many time steps.
@@ -163,12 +163,12 @@ impl PushProblem<'_> {
         }
     }
 
-    fn direction(&self, contact: &Contact, angle_rad: f64) -> Vector2<f64> {
+    pub(super) fn direction(&self, contact: &Contact, angle_rad: f64) -> Vector2<f64> {
         UnitComplex::new(angle_rad) * contact.normal.into_inner()
     }
 
     /// Place of the tool's origin that holds the object at `center` with a gap, its nearest side to the contact.
-    fn hold(&self, contact: &Contact, center: &Point2<f64>, gap_m: f64, angle_rad: f64) -> Point2<f64> {
+    pub(super) fn hold(&self, contact: &Contact, center: &Point2<f64>, gap_m: f64, angle_rad: f64) -> Point2<f64> {
         let pose = self.tool.pose_touching(contact, center, self.object.inscribed_radius_m(), gap_m, angle_rad);
         Point2::from(pose.translation.vector)
     }
@@ -193,42 +193,6 @@ impl PushProblem<'_> {
                 let surface = surfaces.get(index).map_or_else(String::new, |surface| surface.name.clone());
                 PlanError::Pull { surface, length_m }
             }
-        })
-    }
-
-    fn push(
-        &self,
-        skill: &ObjectOperatingSkill,
-        surface: &ContactSurface,
-        from: Point2<f64>,
-        to: Point2<f64>,
-        angle_rad: f64,
-    ) -> Result<Action, PlanError> {
-        let contact = surface.middle();
-        let way = to - from;
-        // the skill is rolled out as it was shown; the task may be turned against it
-        let turn = Rotation2::new(angle_rad);
-        let shown_way = turn.inverse() * way;
-        let duration_s = self.whole_steps_s(way.norm() / self.push_speed_m_per_s);
-        let origin = Vector2::zeros();
-        let object = self.rollout(skill.primitive.as_ref(), origin, shown_way, duration_s)?;
-        let gap = turn.inverse() * -self.direction(&contact, angle_rad) * APPROACH_GAP_M;
-        let pushed = self.rollout(skill.primitive.as_ref(), gap, shown_way, duration_s)?;
-        let hold = self.hold(&contact, &from, 0.0, angle_rad);
-        let place = |motions: Vec<PlanarMotion>, start: Point2<f64>, angle: f64| {
-            let moved = motions.into_iter().map(|motion| turned(&motion, &turn, &start, angle)).collect();
-            Track::new(self.time_step_s, moved)
-        };
-        Ok(Action {
-            name: format!("push {}", surface.name),
-            kind: ActionKind::ObjectOperating(Push {
-                surface: skill.surface,
-                place_m: 0.0,
-                from_world: from,
-                to_world: to,
-            }),
-            tool: place(pushed, hold, angle_rad)?,
-            object: place(object, from, 0.0)?,
         })
     }
 
@@ -283,13 +247,13 @@ impl PushProblem<'_> {
     }
 
     /// The next whole number of time steps, s: tracks lie on a uniform grid.
-    fn whole_steps_s(&self, duration_s: f64) -> f64 {
+    pub(super) fn whole_steps_s(&self, duration_s: f64) -> f64 {
         // a rounding above a whole number is no further step
         (duration_s / self.time_step_s - 1e-6).ceil().max(FEWEST_STEPS) * self.time_step_s
     }
 
     /// Rolls a primitive out and closes what is left at its end, so that it arrives exactly and at rest.
-    fn rollout(
+    pub(super) fn rollout(
         &self,
         primitive: &dyn MovementPrimitive,
         start: Vector2<f64>,

@@ -74,7 +74,10 @@ impl SkillLibrary {
         speed_m_per_s: f64,
         time_step_s: f64,
     ) -> Result<Option<Track>, SkillError> {
-        let clear = |(place, away): (Point2<f64>, Vector2<f64>)| place + away * (around.margin_m + CORNER_M);
+        // a side of the object may lie inside the disc that holds it, out of which the hold is left first
+        let clear = |(place, away): (Point2<f64>, Vector2<f64>)| {
+            place + away * (around.margin_m + CORNER_M - around.clearance_m(&place).min(0.0))
+        };
         let Some(between) = around.way(clear(from), clear(to)) else { return Ok(None) };
         let places: Vec<Point2<f64>> = std::iter::once(from.0).chain(between).chain([to.0]).collect();
         let skill = self.way_along(places)?;

@@ -21,8 +21,9 @@ impl CostToGo {
 
     /// Bounds from below the cost of moving by `left` (m) with direction `now` in hold: length, and switches.
     ///
-    /// A shortest way among given directions uses at most two of them, so pairs are enough. Infinite if no pushes lead
-    /// there.
+    /// A shortest way among given directions uses at most two of them, and of those that a way uses the two need no more
+    /// switches than the way has: pairs are enough. What may be left at the goal is taken from each length, as far as it
+    /// can be. Infinite if no pushes lead there.
     pub(super) fn at(&self, left: &Vector2<f64>, now: usize) -> f64 {
         if left.norm() <= self.tolerance_m {
             return 0.0;
@@ -60,6 +61,8 @@ impl CostToGo {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
 
     fn three() -> CostToGo {
@@ -83,5 +86,25 @@ mod tests {
     fn what_no_push_leads_to_costs_infinitely_much() {
         assert_eq!(three().at(&Vector2::x(), 0), f64::INFINITY);
         assert_eq!(three().at(&Vector2::zeros(), 0), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn no_way_costs_less_than_its_bound(
+            angles in prop::collection::vec(0.0f64..6.3, 1..5), runs in prop::collection::vec((0usize..5, 0.0f64..0.1), 1..6),
+            now in 0usize..5, tolerance_m in 0.0f64..0.01, off in (0.0f64..6.3, 0.0f64..1.0),
+        ) {
+            let directions: Vec<_> = angles.iter().map(|angle| Vector2::new(angle.cos(), angle.sin())).collect();
+            let (switch_cost_m, now) = (0.06, now % directions.len());
+            let (mut held, mut left, mut cost) = (now, Vector2::new(off.0.cos(), off.0.sin()) * off.1 * tolerance_m, 0.0);
+            for (index, length) in runs {
+                let index = index % directions.len();
+                cost += length + if index == held { 0.0 } else { switch_cost_m };
+                held = index;
+                left += directions[index] * length;
+            }
+            let bound = CostToGo::new(directions, switch_cost_m, tolerance_m).at(&left, now);
+            prop_assert!(bound <= cost + ROUNDING_M, "{bound} of {cost}");
+        }
     }
 }

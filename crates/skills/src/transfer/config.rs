@@ -2,10 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::search::SearchConfig;
 use crate::corridor::smoothing::SmoothingConfig;
 use crate::corridor_filter::CorridorFilterConfig;
-use crate::field::{FieldError, within};
+use crate::field::{FieldError, not_negative, positive, within};
 use crate::tool_flipping::FlipOptions;
 
 /// Options of a transfer to another tool.
@@ -69,5 +68,46 @@ impl TransferConfig {
         self.smoothing.validate().map_err(|error| error.within("smoothing"))?;
         self.search.validate().map_err(|error| error.within("search"))?;
         self.flip.validate().map_err(|error| error.within("flip"))
+    }
+}
+
+/// Options of the search; costs are lengths, m.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SearchConfig {
+    /// Side of a cell, m.
+    pub cell_m: f64,
+    /// Places on each surface that may be held, 1 to 21.
+    pub places: usize,
+    /// Cost per length and squared distance from the reference path, 1/m².
+    pub deviation_per_m2: f64,
+    /// Cost of a change of surface, m.
+    pub switch_cost_m: f64,
+    /// Cost per distance of a hold from the middle of its surface.
+    pub off_center: f64,
+    /// Cost per distance that the tool goes round the object in a change of surface.
+    pub flip: f64,
+}
+
+impl Default for SearchConfig {
+    fn default() -> Self {
+        Self { cell_m: 0.001, places: 5, deviation_per_m2: 1500.0, switch_cost_m: 0.06, off_center: 0.5, flip: 0.3 }
+    }
+}
+
+impl SearchConfig {
+    /// Checks every option.
+    ///
+    /// # Errors
+    /// A [`FieldError`] with the field relative to this struct.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        within("cell_m", self.cell_m, 1e-5, 1.0)?;
+        if !(1..=21).contains(&self.places) {
+            return Err(FieldError::new("places", self.places, "a whole number from 1 to 21"));
+        }
+        not_negative("deviation_per_m2", self.deviation_per_m2)?;
+        positive("switch_cost_m", self.switch_cost_m)?;
+        not_negative("off_center", self.off_center)?;
+        not_negative("flip", self.flip)
     }
 }

@@ -4,22 +4,33 @@
 //! tool and arm can do. The last step is a search here, exact for its cost, over surface, place on it and place of the
 //! object.
 
+mod barring;
 mod bound;
 mod cells;
+mod chaining;
+mod changing;
 mod config;
+#[cfg(test)]
+mod fixtures;
+mod grid;
 mod holds;
 mod passages;
+mod phases;
 mod problem;
 mod reference;
 mod refusal;
 mod search;
+mod shapes;
+mod sweep;
 mod workplace;
 
-pub use config::TransferConfig;
-pub use holds::{Hold, holds};
+pub use barring::Barring;
+pub use config::{SearchConfig, TransferConfig};
+pub use holds::Hold;
 pub use passages::{Passage, Side, corridor, passages};
+pub use phases::{Phase, Phases};
 pub use problem::{Transfer, TransferProblem};
 pub use reference::Reference;
 pub use refusal::{NoPhases, TransferError, explain};
-pub use search::{Phase, PhaseSearch, Phases, SearchConfig};
+pub use search::PhaseSearch;
 pub use workplace::{Everywhere, Reach, RectangularReach, Workplace};

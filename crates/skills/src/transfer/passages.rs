@@ -89,7 +89,8 @@ impl Barred {
 /// Finds the obstacles that `path` (n × 2, m) passes, and on which side: the one given in `set`, else that of most of
 /// the `shown` paths, else that of the path.
 ///
-/// An obstacle is passed along the coordinate in which the path goes from one end of it to the other.
+/// An obstacle is passed along the coordinate in which the path goes from one end of it to the other. One that the path
+/// enters without passing it, as beside its start or goal, is kept on the side from which it is entered least.
 #[must_use]
 pub fn passages(
     place: &Workplace<'_>,
@@ -97,19 +98,47 @@ pub fn passages(
     shown: &[Vec<Point2<f64>>],
     set: &[Option<Side>],
 ) -> Vec<Passage> {
+    let path_points = points(path);
     let find = |(index, obstacle): (usize, &PlacedOutline)| {
         let barred = Barred::new(place, obstacle);
-        if let Some(side) = set.get(index).copied().flatten() {
-            return Some(Passage { obstacle: index, side });
-        }
-        let axis = (0..2).find(|along| crosses(&barred, *along, path)).map(|along| 1 - along)?;
-        let votes = shown.iter().filter_map(|path| side_of(&barred, axis, path));
-        let (mut high, mut low) = (0, 0);
-        votes.for_each(|is_high| if is_high { high += 1 } else { low += 1 });
-        let is_high = if high == low { side_of(&barred, axis, &points(path))? } else { high > low };
-        Some(Passage { obstacle: index, side: Side::new(axis, is_high) })
+        let side = match set.get(index).copied().flatten() {
+            Some(side) => side,
+            None => match (0..2).find(|along| crosses(&barred, *along, path)) {
+                Some(along) => passed(&barred, 1 - along, &path_points, shown)?,
+                None => entered(&barred, &path_points)?,
+            },
+        };
+        Some(Passage { obstacle: index, side })
     };
     place.obstacles.iter().enumerate().filter_map(find).collect()
+}
+
+/// The side in `axis` on which most of the shown paths pass, or the path if they do not say.
+fn passed(barred: &Barred, axis: usize, path: &[Point2<f64>], shown: &[Vec<Point2<f64>>]) -> Option<Side> {
+    let votes: Vec<bool> = shown.iter().filter_map(|path| side_of(barred, axis, path)).collect();
+    let high = votes.iter().filter(|is_high| **is_high).count();
+    let low = votes.len() - high;
+    let is_high = if high == low { side_of(barred, axis, path)? } else { high > low };
+    Some(Side::new(axis, is_high))
+}
+
+/// The side of an obstacle that both ends of a path respect and beyond which the path goes least; nothing if the path
+/// does not enter it.
+fn entered(barred: &Barred, path: &[Point2<f64>]) -> Option<Side> {
+    let inside = |point: &&Point2<f64>| (0..2).all(|axis| barred.spans(axis, point[axis]));
+    path.iter().find(inside)?;
+    // how far the path goes beyond a side, for as long as it is beside the obstacle
+    let beyond = |side: Side, points: &[Point2<f64>]| {
+        let axis = side.axis();
+        let rows = points.iter().filter(|point| barred.spans(1 - axis, point[1 - axis]));
+        let depths = rows
+            .map(|point| if side.is_high() { barred.high[axis] - point[axis] } else { point[axis] - barred.low[axis] });
+        depths.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let ends: Vec<Point2<f64>> = [path.first(), path.last()].into_iter().flatten().copied().collect();
+    let sides = [Side::Left, Side::Right, Side::Below, Side::Above];
+    let possible = sides.into_iter().filter(|side| beyond(*side, &ends) <= 0.0);
+    possible.min_by(|a, b| beyond(*a, path).total_cmp(&beyond(*b, path)))
 }
 
 /// Whether a path leads from before an obstacle to behind it along an axis.
@@ -161,3 +190,7 @@ pub fn corridor(
     }
     smooth(config, path.times_s(), &lower, &upper)
 }
+
+#[cfg(test)]
+#[path = "passages_tests.rs"]
+mod tests;

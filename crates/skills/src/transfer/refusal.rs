@@ -2,10 +2,13 @@
 
 use nalgebra::Point2;
 
-use super::search::{PhaseSearch, SearchConfig};
+use super::cells::Barred;
+use super::config::SearchConfig;
+use super::search::PhaseSearch;
 use super::workplace::{Everywhere, Workplace};
 use crate::error::SkillError;
 use crate::field::FieldError;
+use crate::plan::ChainError;
 use crate::tool_flipping::FlipError;
 
 /// Why the object cannot be brought to its goal.
@@ -26,18 +29,42 @@ pub enum NoPhases {
         /// Number of its surfaces.
         surfaces: usize,
     },
-    /// The object cannot be where it is to be.
+    /// The object is where it is wanted.
     #[error(
-        "plan transfer: the object's {place} keeps {clearance_m:.4} m from the nearest obstacle; expected {margin_m:.4} m, \
-         inside the map; move it, or lower the safe margin"
+        "plan transfer: the object starts {distance_m:.4} m from its goal; expected at least half a cell of {cell_m} m to \
+         one side; choose another start or goal, or lower cell_m"
+    )]
+    AtGoal {
+        /// Distance of the start from the goal, m.
+        distance_m: f64,
+        /// Side of a cell, m.
+        cell_m: f64,
+    },
+    /// The object cannot be where it is to be, for the edge of the map.
+    #[error(
+        "plan transfer: the object reaches out of the map at its {place} ({x_m:.4}, {y_m:.4}) m; expected the whole object \
+         inside; move it, or widen the map"
+    )]
+    OutsideMap {
+        /// Start or goal.
+        place: &'static str,
+        /// Place of the object's center, m.
+        x_m: f64,
+        /// Place of the object's center, m.
+        y_m: f64,
+    },
+    /// The object cannot be where it is to be, for an obstacle.
+    #[error(
+        "plan transfer: the object's {place} is {clearance_m:.4} m from the nearest obstacle; expected {least_m:.4} m, the \
+         safe margin and half a cell; move it, or lower object_margin_m"
     )]
     Place {
         /// Start or goal.
         place: &'static str,
-        /// Distance of the object from the nearest obstacle there, m.
+        /// Distance of the object from the nearest obstacle there, m; negative where they overlap.
         clearance_m: f64,
         /// Distance that it must keep, m.
-        margin_m: f64,
+        least_m: f64,
     },
     /// The tool's surfaces push in directions that do not lead to the goal.
     #[error(
@@ -113,7 +140,7 @@ pub enum TransferError {
     /// The tool cannot come to its first hold, or away from its last one.
     #[error(
         "plan transfer: found no way of the tool to {what} with the object at ({x_m:.4}, {y_m:.4}) m; expected one past \
-         object and obstacles; move home_m or park_m, or the obstacles"
+         object and obstacles; move home_m or park_m, the obstacles, or lower tool_margin_m"
     )]
     NoWay {
         /// What the way is for.
@@ -123,6 +150,9 @@ pub enum TransferError {
         /// Place of the object, m.
         y_m: f64,
     },
+    /// The plan was made but is no chain.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
     /// A skill could not be rolled out, or an option is out of its range.
     #[error(transparent)]
     Skill(#[from] SkillError),
@@ -131,18 +161,30 @@ pub enum TransferError {
 /// A constraint that may close the last way, what it is called, and what to do.
 type Relaxation<'s> = (&'static str, fn(&mut Workplace<'s>), &'static str);
 
-fn relaxations<'s>() -> [Relaxation<'s>; 5] {
+fn relaxations<'s>() -> [Relaxation<'s>; 6] {
     [
         (
             "the safe margin of the object",
             |workplace| workplace.object_margin_m = 0.0,
-            "lower it, or move the obstacles",
+            "lower object_margin_m, or move the obstacles",
         ),
-        ("the margin of the tool", |workplace| workplace.tool_margin_m = 0.0, "lower it, or move the obstacles"),
+        (
+            "the margin of the tool",
+            |workplace| workplace.tool_margin_m = 0.0,
+            "lower tool_margin_m, or move the obstacles",
+        ),
+        ("the edge of the map", widen_map, "widen the map, or move start and goal inward"),
         ("the reach of the arm", |workplace| workplace.reach = &Everywhere, "move its base, or name a longer tool"),
         ("the tool, which hits obstacles", |workplace| workplace.tool_passes = true, "name another tool, or turn it"),
         ("the obstacles", |workplace| workplace.obstacles = &[], "move them apart"),
     ]
+}
+
+/// Widens the map by its own size to every side.
+fn widen_map(workplace: &mut Workplace<'_>) {
+    let size = workplace.map_max - workplace.map_min;
+    workplace.map_min -= size;
+    workplace.map_max += size;
 }
 
 /// Explains why [`PhaseSearch::solve`] found nothing.
@@ -156,9 +198,14 @@ pub fn explain(workplace: &Workplace<'_>, config: &SearchConfig, start: Point2<f
     if search.holds().is_empty() {
         return NoPhases::Holds { tool, surfaces: workplace.tool.surfaces.len() };
     }
-    for (name, at) in [("start", start), ("goal", goal)] {
-        if let Some(clearance_m) = search.refused_place_m(&at) {
-            return NoPhases::Place { place: name, clearance_m, margin_m: workplace.object_margin_m };
+    if search.is_at_goal() {
+        return NoPhases::AtGoal { distance_m: (goal - start).norm(), cell_m: config.cell_m };
+    }
+    for (place, at) in [("start", start), ("goal", goal)] {
+        match search.barred(&at) {
+            Some(Barred::Map) => return NoPhases::OutsideMap { place, x_m: at.x, y_m: at.y },
+            Some(Barred::Obstacle { clearance_m, least_m }) => return NoPhases::Place { place, clearance_m, least_m },
+            None => {}
         }
     }
     if !search.directions_lead_there() {
@@ -168,6 +215,7 @@ pub fn explain(workplace: &Workplace<'_>, config: &SearchConfig, start: Point2<f
             .iter()
             .map(|hold| hold.direction.y.atan2(hold.direction.x).to_degrees().round() as i64)
             .collect();
+        degrees.sort_unstable();
         degrees.dedup();
         let directions = degrees.iter().map(|angle| format!("{angle}°")).collect::<Vec<_>>().join(", ");
         return NoPhases::Directions { tool, directions, x_m: wanted.x, y_m: wanted.y };

@@ -1,53 +1,17 @@
 //! The search for phases: the paper's task, its exactness against an exhaustive one, and the reasons when there is no way.
 
 use approx::assert_relative_eq;
+use proptest::prelude::*;
 
+use super::super::fixtures::{DISC, block, ell, of_family, workplace};
 use super::*;
 use crate::outline::{Outline, PlacedOutline};
-use crate::tool::{ContactSurface, SurfaceShape, Tool};
+use crate::tool::Tool;
+use crate::tool::family::{Hook, Tee, ToolShape};
 use crate::transfer::{Everywhere, NoPhases, RectangularReach, explain};
 
 /// A few roundings of lengths of some decimeters.
 const ROUNDING_M: f64 = 1e-12;
-
-fn block(width_m: f64, height_m: f64, position_m: [f64; 2]) -> PlacedOutline {
-    PlacedOutline { shape: Outline::Box { width_m, height_m }, position_m, angle_rad: 0.0 }
-}
-
-fn face(name: &str, start_m: [f64; 2], end_m: [f64; 2]) -> ContactSurface {
-    ContactSurface::new(name, SurfaceShape::Face { start_m, end_m })
-}
-
-/// Tool 2 of the paper: 40 x 40 mm, 12 mm thick, held at its corner.
-fn ell() -> Tool {
-    let pieces = vec![block(0.040, 0.012, [-0.014, 0.0]), block(0.012, 0.028, [0.0, -0.020])];
-    let surfaces = vec![
-        face("bottom", [-0.034, -0.006], [-0.019, -0.006]),
-        face("tip", [-0.034, 0.005], [-0.034, -0.005]),
-        face("top", [-0.014, 0.006], [-0.034, 0.006]),
-    ];
-    let tool = Tool { name: "ell".into(), description: String::new(), mass_kg: 0.01, friction: 0.3, pieces, surfaces };
-    tool.validate().unwrap();
-    tool
-}
-
-fn workplace<'a>(tool: &'a Tool, object: &'a Outline, obstacles: &'a [PlacedOutline]) -> Workplace<'a> {
-    Workplace {
-        map_min: Point2::new(-0.09, 0.0),
-        map_max: Point2::new(0.09, 0.18),
-        obstacles,
-        object_margin_m: 0.015,
-        tool_margin_m: 0.003,
-        object,
-        object_angle_rad: 0.0,
-        tool,
-        tool_angle_rad: 0.0,
-        tool_passes: false,
-        reach: &RectangularReach { min_m: [-0.12, 0.0], max_m: [0.12, 0.16] },
-    }
-}
-
-const DISC: Outline = Outline::Disc { radius_m: 0.012 };
 
 fn names<'a>(tool: &'a Tool, phases: &Phases) -> Vec<&'a str> {
     phases.phases.iter().map(|phase| tool.surfaces[phase.hold.surface].name.as_str()).collect()
@@ -75,9 +39,9 @@ fn the_papers_task_takes_three_phases_bottom_tip_top() {
 /// Costs of all states by relaxing every edge until nothing changes.
 fn exhaustive(search: &mut PhaseSearch<'_>) -> f64 {
     let holds = search.holds.len();
-    let mut costs = vec![f64::INFINITY; search.world.len() * holds];
+    let mut costs = vec![f64::INFINITY; search.world.grid.len() * holds];
     for hold in 0..holds {
-        if search.world.object_is_free(search.workplace, [0, 0]) && search.is_held([0, 0], hold) {
+        if search.is_start([0, 0], hold) {
             let state = search.state([0, 0], hold).unwrap();
             costs[state as usize] = search.config.off_center * search.holds[hold].place_m.abs();
         }
@@ -144,6 +108,60 @@ fn the_cost_equals_that_of_an_exhaustive_search() {
     assert_eq!(solved, 5);
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn the_cost_is_that_of_an_exhaustive_search_on_random_maps(
+        start in [-0.07f64..0.07, 0.02f64..0.16], goal in [-0.07f64..0.07, 0.02f64..0.16], turn in -3.0f64..3.0,
+        blocks in prop::collection::vec([0.01f64..0.05, 0.01f64..0.05, -0.06f64..0.06, 0.03f64..0.15], 0..3),
+        kind in 0usize..3, deviation_per_m2 in 0.0f64..3000.0, switch_cost_m in 0.001f64..0.1,
+    ) {
+        let shapes: [&dyn ToolShape; 2] = [&Tee::default(), &Hook::default()];
+        let tool = shapes.get(kind).map_or_else(ell, |shape| of_family("tool", *shape));
+        let obstacles: Vec<PlacedOutline> = blocks.iter().map(|[w, h, x, y]| block(*w, *h, [*x, *y])).collect();
+        let place = Workplace {
+            tool_angle_rad: turn, object_margin_m: 0.004, reach: &Everywhere, ..workplace(&tool, &DISC, &obstacles)
+        };
+        let config =
+            SearchConfig { cell_m: 0.009, places: 2, deviation_per_m2, switch_cost_m, ..SearchConfig::default() };
+        let reference = [Point2::from(start), Point2::new(0.0, 0.03), Point2::from(goal)];
+        let mut search = PhaseSearch::new(&place, &config, &reference, start.into(), goal.into()).unwrap();
+        prop_assume!(!search.is_at_goal());
+        let expected = exhaustive(&mut search);
+        let found = search.solve().map_or(f64::INFINITY, |phases| phases.cost_m);
+        prop_assert!(found == expected || (found - expected).abs() < 1e-9, "{found}, not {expected}");
+    }
+}
+
+#[test]
+fn what_is_given_up_changes_the_phases_and_never_makes_them_cheaper() {
+    let tool = ell();
+    let workplace = workplace(&tool, &DISC, &[]);
+    let config = SearchConfig::default();
+    for barring in [Barring::Start, Barring::End, Barring::Change(0), Barring::ChangeNearby(0)] {
+        let mut search =
+            PhaseSearch::new(&workplace, &config, &[], Point2::new(0.05, 0.10), Point2::new(-0.05, 0.05)).unwrap();
+        let first = search.solve().unwrap();
+        search.bar(&first, barring);
+        let second = search.solve().unwrap();
+        assert!(second.cost_m >= first.cost_m && second.phases != first.phases, "{barring:?}");
+    }
+}
+
+#[test]
+fn too_many_states_and_a_start_at_the_goal_are_refused() {
+    let tool = ell();
+    let place = workplace(&tool, &DISC, &[]);
+    let (start, goal) = (Point2::new(0.05, 0.10), Point2::new(-0.05, 0.05));
+    let fine = SearchConfig { cell_m: 1e-4, places: 21, ..SearchConfig::default() };
+    let refused = PhaseSearch::new(&place, &fine, &[], start, goal).err().unwrap();
+    assert!(refused.field == "cell_m" && refused.to_string().contains("holds"), "{refused}");
+    let config = SearchConfig::default();
+    assert!(PhaseSearch::new(&place, &config, &[], start, start).unwrap().solve().is_none());
+    let reason = explain(&place, &config, start, start + Vector2::repeat(1e-4));
+    assert!(matches!(reason, NoPhases::AtGoal { .. }), "{reason}");
+}
+
 #[test]
 fn a_barred_switch_is_not_taken_again() {
     let tool = ell();
@@ -152,15 +170,15 @@ fn a_barred_switch_is_not_taken_again() {
     let mut search =
         PhaseSearch::new(&workplace, &config, &[], Point2::new(0.05, 0.10), Point2::new(-0.05, 0.05)).unwrap();
     let first = search.solve().unwrap();
-    search.bar_switch(&first, 0);
+    search.bar(&first, Barring::ChangeNearby(0));
     let second = search.solve().unwrap();
     assert!(second.cost_m >= first.cost_m);
     assert_ne!(first.phases[..2], second.phases[..2]);
 }
 
 #[test]
-fn oblique_surfaces_reach_a_goal_to_within_a_step() {
-    let mut tool = ell();
+fn a_turned_tool_reaches_its_goal_exactly() {
+    let tool = ell();
     let turn = 0.3;
     let workplace = Workplace { tool_angle_rad: turn, reach: &Everywhere, ..workplace(&tool, &DISC, &[]) };
     let config = SearchConfig::default();
@@ -168,7 +186,8 @@ fn oblique_surfaces_reach_a_goal_to_within_a_step() {
         PhaseSearch::new(&workplace, &config, &[], Point2::new(0.05, 0.10), Point2::new(-0.03, 0.06)).unwrap();
     let found = search.solve().unwrap();
     let end = found.phases.last().unwrap().to_world;
-    assert!((end - Point2::new(-0.03, 0.06)).norm() <= search.goal_tolerance_m);
+    assert_relative_eq!(end, Point2::new(-0.03, 0.06), epsilon = ROUNDING_M);
+    assert!(search.holds().iter().all(|hold| (hold.tool_angle_rad - turn).abs() < ROUNDING_M));
     for phase in &found.phases {
         let along = (phase.to_world - phase.from_world).normalize();
         assert_relative_eq!(along, phase.hold.direction, epsilon = 1e-9);
@@ -176,7 +195,6 @@ fn oblique_surfaces_reach_a_goal_to_within_a_step() {
         let normal = tool.surfaces[phase.hold.surface].contact_at(phase.hold.place_m).normal;
         assert_relative_eq!(phase.hold.center_from_tool.rotation * normal.into_inner(), along, epsilon = 1e-9);
     }
-    tool.surfaces.clear();
 }
 
 #[test]
@@ -209,6 +227,8 @@ fn no_way_is_explained_by_the_constraint_that_closes_it() {
     let near = RectangularReach { min_m: [-0.12, 0.0], max_m: [0.05, 0.16] };
     let short = reason(&Workplace { reach: &near, ..workplace(&tool, &DISC, &[]) }, start, goal);
     assert!(matches!(short, NoPhases::Closed { constraint: "the reach of the arm", .. }), "{short}");
+    let outside = reason(&free, start, Point2::new(-0.085, 0.11));
+    assert!(matches!(outside, NoPhases::OutsideMap { place: "goal", .. }), "{outside}");
     let there = [block(0.02, 0.02, [-0.055, 0.11])];
     let occupied = reason(&workplace(&tool, &DISC, &there), start, goal);
     assert!(matches!(occupied, NoPhases::Place { place: "goal", .. }), "{occupied}");

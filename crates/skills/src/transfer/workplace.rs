@@ -3,10 +3,8 @@
 use std::fmt;
 
 use nalgebra::{Isometry2, Point2};
-use parry2d::math::{Pose, Vector};
-use parry2d::shape::SharedShape;
 
-use crate::field::{FieldError, not_negative};
+use crate::field::{FieldError, finite, not_negative};
 use crate::outline::{Outline, PlacedOutline};
 use crate::tool::Tool;
 
@@ -69,14 +67,38 @@ pub struct Workplace<'a> {
     pub reach: &'a dyn Reach,
 }
 
+/// A centroid this near to the origin of its outline is there, m: places given in files.
+const CENTERED_M: f64 = 1e-4;
+
 impl Workplace<'_> {
-    /// Checks the margins.
+    /// Checks map, margins, outlines, angles and tool.
     ///
     /// # Errors
     /// A [`FieldError`] naming the offending value.
     pub fn validate(&self) -> Result<(), FieldError> {
+        finite("map_min", self.map_min.coords.as_slice())?;
+        finite("map_max", self.map_max.coords.as_slice())?;
+        for axis in 0..2 {
+            if self.map_min[axis] >= self.map_max[axis] {
+                let expected = format!("more than map_min, {} m", self.map_min[axis]);
+                return Err(FieldError::new("map_max", self.map_max[axis], expected));
+            }
+        }
         not_negative("object_margin_m", self.object_margin_m)?;
-        not_negative("tool_margin_m", self.tool_margin_m)
+        not_negative("tool_margin_m", self.tool_margin_m)?;
+        finite("object_angle_rad", &[self.object_angle_rad])?;
+        finite("tool_angle_rad", &[self.tool_angle_rad])?;
+        self.object.validate().map_err(|error| error.within("object"))?;
+        let center = self.object.centroid();
+        if center.coords.norm() > CENTERED_M {
+            let found = format!("an outline about ({:.4}, {:.4}) m", center.x, center.y);
+            return Err(FieldError::new("object", found, "one with its centroid at its origin: pushes go through it"));
+        }
+        self.tool.validate().map_err(|error| error.within("tool"))?;
+        for (index, obstacle) in self.obstacles.iter().enumerate() {
+            obstacle.validate().map_err(|error| error.within(format!("obstacles.{index}")))?;
+        }
+        Ok(())
     }
 
     /// Distance of the object's center from its side in the world direction at `angle_rad`, m: how far a face that
@@ -85,63 +107,4 @@ impl Workplace<'_> {
     pub fn object_support_m(&self, angle_rad: f64) -> f64 {
         self.object.support_m(angle_rad - self.object_angle_rad)
     }
-}
-
-/// Shapes of a workplace, built once: distances are asked for many thousand times.
-#[derive(Clone)]
-pub(super) struct Shapes {
-    object: Vec<(SharedShape, Isometry2<f64>)>,
-    tool: Vec<(SharedShape, Isometry2<f64>)>,
-    obstacles: Vec<(SharedShape, Isometry2<f64>)>,
-}
-
-impl Shapes {
-    pub(super) fn new(setting: &Workplace<'_>) -> Self {
-        let placed = |outline: &PlacedOutline| Some((outline.shape.shape()?, outline.pose()));
-        let turn = Isometry2::rotation(setting.object_angle_rad);
-        Self {
-            object: setting.object.shape().map(|shape| (shape, turn)).into_iter().collect(),
-            tool: setting.tool.pieces.iter().filter_map(placed).collect(),
-            obstacles: setting.obstacles.iter().filter_map(placed).collect(),
-        }
-    }
-
-    /// Distance of the object, its center at `center`, from the nearest obstacle, m; negative where they overlap.
-    pub(super) fn object_clearance_m(&self, center: &Point2<f64>) -> f64 {
-        nearest_m(&self.object, &Isometry2::from(*center), &self.obstacles)
-    }
-
-    /// Distance of the tool from the nearest obstacle, m; negative where they overlap.
-    pub(super) fn tool_clearance_m(&self, world_from_tool: &Isometry2<f64>) -> f64 {
-        nearest_m(&self.tool, world_from_tool, &self.obstacles)
-    }
-
-    /// Distance of the tool from the object, m; negative where they overlap.
-    pub(super) fn gap_m(&self, world_from_tool: &Isometry2<f64>, center: &Point2<f64>) -> f64 {
-        let at = Isometry2::from(*center);
-        let object: Vec<_> = self.object.iter().map(|(shape, pose)| (shape.clone(), at * pose)).collect();
-        nearest_m(&self.tool, world_from_tool, &object)
-    }
-}
-
-fn nearest_m(
-    moving: &[(SharedShape, Isometry2<f64>)],
-    pose: &Isometry2<f64>,
-    still: &[(SharedShape, Isometry2<f64>)],
-) -> f64 {
-    let mut nearest = f64::INFINITY;
-    for (first, at) in moving {
-        let here = engine_pose(&(pose * at));
-        for (second, there) in still {
-            let there = engine_pose(there);
-            let contact =
-                parry2d::query::contact(&here, first.as_ref(), &there, second.as_ref(), nearest.min(f64::MAX));
-            nearest = contact.ok().flatten().map_or(nearest, |contact| contact.dist.min(nearest));
-        }
-    }
-    nearest
-}
-
-fn engine_pose(pose: &Isometry2<f64>) -> Pose {
-    Pose::new(Vector::new(pose.translation.x, pose.translation.y), pose.rotation.angle())
 }
