@@ -11,7 +11,7 @@ const HELD: &[(&str, &str)] = &[
     ("assets/skills", "Learned skills, as `wield learn` writes them."),
     ("assets/tools", "Tools: outlines and contact surfaces."),
     ("crates", "The code: each crate uses only those below it."),
-    ("docs", "Pictures of this page."),
+    ("docs", "Pictures, the reproduction of the paper, measured performance."),
     ("scenarios", "Experiments, one TOML file each."),
     ("tests", "Tests of the built program and of this tree."),
 ];

@@ -10,6 +10,7 @@ pub mod pipeline;
 #[cfg(feature = "recording")]
 pub mod recording;
 pub mod report;
+mod reproduction;
 pub mod scenario;
 pub mod suggest;
 pub mod tasks;

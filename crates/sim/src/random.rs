@@ -1,6 +1,6 @@
 //! Random numbers: one seed, a stream per purpose, so that a draw added in one place moves nothing elsewhere.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// What random numbers are drawn for.
@@ -15,6 +15,8 @@ pub enum Purpose {
     Eyes = 3,
     /// Errors of the camera that records demonstrations.
     Recorder = 4,
+    /// What a run's world differs in from its scenario.
+    Variation = 5,
 }
 
 /// Streams of one trial lie this far apart.
@@ -26,4 +28,9 @@ pub fn stream(seed: u64, purpose: Purpose, trial: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(purpose as u64 + TRIAL_STRIDE * trial);
     random
+}
+
+/// Draws a number from −1 to 1, all equally likely.
+pub fn symmetric(random: &mut ChaCha8Rng) -> f64 {
+    2.0 * random.random::<f64>() - 1.0
 }

@@ -7,6 +7,7 @@ mod list;
 mod observe;
 mod panics;
 mod progress;
+mod reproduce;
 mod run;
 mod seed_run;
 
@@ -61,6 +62,7 @@ Examples:
   wield run scenarios/push_stick.toml              run it; results go to runs/push_stick/seed-1/
   wield run scenarios/push_stick.toml --trials 20  seeds 1 to 20 in parallel, with the success rate
   wield demonstrate scenarios/push_stick.toml      only what the synthetic human shows, as CSV files
+  wield reproduce                                  every figure, table and claim of the paper, with a verdict
 
 Exit codes:
   0  success
@@ -97,6 +99,9 @@ enum Verb {
     /// Learn skills from a scenario's demonstrations, and keep them in a file
     #[command(after_long_help = learn::AFTER_HELP)]
     Learn(learn::LearnArguments),
+    /// Compute the paper's figures, tables and claims anew, and say what came out
+    #[command(after_long_help = reproduce::AFTER_HELP)]
+    Reproduce(reproduce::ReproduceArguments),
     /// Check scenario files without running them
     Check(check::CheckArguments),
     /// List scenarios, tools, robots, tasks, demonstrations and skills
@@ -120,6 +125,7 @@ pub fn main() -> Exit {
         Verb::Run(run) => run::execute(&run, assets, crate::pipeline::run),
         Verb::Demonstrate(demonstrate) => demonstrate::execute(&demonstrate, assets),
         Verb::Learn(learn) => learn::execute(&learn, assets),
+        Verb::Reproduce(reproduce) => reproduce::execute(&reproduce, assets),
         Verb::Check(check) => check::execute(&check, assets),
         Verb::List(list) => list::execute(&list, assets),
     }

@@ -11,6 +11,7 @@ mod parts;
 mod skills_file;
 mod source;
 mod units;
+mod variation;
 mod words;
 
 use serde::{Deserialize, Serialize};
@@ -20,7 +21,7 @@ use sim::planar::{EngineConfig, ObjectConfig, WorldConfig};
 use sim::sensing::CameraConfig;
 use skills::field::{FieldError, within};
 use skills::primitive::PrimitiveConfig;
-use skills::pushing::SteeringConfig;
+use skills::pushing::{HoldRenewalConfig, SteeringConfig};
 
 use crate::tasks::TaskConfig;
 
@@ -30,6 +31,7 @@ pub(crate) use parts::MOST_DEMONSTRATIONS;
 pub use parts::{CONTROL_RATE_HZ, LARGEST_SEED};
 pub use skills_file::{Origin, SkillsFile};
 pub(crate) use source::Source;
+pub use variation::{Variation, VariationConfig};
 
 /// One experiment: what is there, what is to be done, how it is learned, carried out and judged.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,6 +65,9 @@ pub struct Scenario {
     /// Time steps and contact solver.
     #[serde(default)]
     pub engine: EngineConfig,
+    /// What each seed's world differs in from all of this.
+    #[serde(default)]
+    pub variation: VariationConfig,
     /// When the task counts as done.
     #[serde(default)]
     pub limits: Limits,
@@ -176,11 +181,18 @@ pub struct ExecutionConfig {
     pub steering: SteeringConfig,
     /// Time constant with which the reference takes up a steered velocity, s.
     pub response_s: f64,
+    /// When and how a hold is renewed during a push in the closed loop.
+    pub hold_renewal: HoldRenewalConfig,
 }
 
 impl Default for ExecutionConfig {
     fn default() -> Self {
-        Self { mode: ExecutionMode::default(), steering: SteeringConfig::default(), response_s: 0.05 }
+        Self {
+            mode: ExecutionMode::default(),
+            steering: SteeringConfig::default(),
+            response_s: 0.05,
+            hold_renewal: HoldRenewalConfig::default(),
+        }
     }
 }
 
@@ -191,6 +203,7 @@ impl ExecutionConfig {
     /// A [`FieldError`] naming the offending value.
     pub fn validate(&self) -> Result<(), FieldError> {
         self.steering.validate().map_err(|error| error.within("steering"))?;
+        self.hold_renewal.validate().map_err(|error| error.within("hold_renewal"))?;
         within("response_s", self.response_s, 0.005, 1.0)
     }
 }
@@ -214,11 +227,17 @@ pub struct Limits {
     pub goal_error_m: f64,
     /// Smallest distance that object and tool must keep from obstacles, m.
     pub clearance_m: f64,
+    /// Smallest distance that the object must keep from obstacles, m; `clearance_m` if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub object_clearance_m: Option<f64>,
+    /// Largest way of the object while it is not pushed, m; any if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub knocked_m: Option<f64>,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { goal_error_m: 0.005, clearance_m: 0.0 }
+        Self { goal_error_m: 0.005, clearance_m: 0.0, object_clearance_m: None, knocked_m: None }
     }
 }
 

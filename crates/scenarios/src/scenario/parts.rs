@@ -22,7 +22,7 @@ impl Scenario {
     /// [`load`](super::load()).
     #[must_use]
     pub fn refused_values(&self) -> Vec<FieldError> {
-        let parts: [(&str, Result<(), FieldError>); 12] = [
+        let parts: [(&str, Result<(), FieldError>); 13] = [
             ("scenario", self.scenario.validate()),
             ("world", self.world.validate()),
             ("object", self.object.validate()),
@@ -33,6 +33,7 @@ impl Scenario {
             ("execution", self.execution.validate()),
             ("camera", self.camera.validate()),
             ("engine", self.engine.validate()),
+            ("variation", self.variation.validate()),
             ("limits", self.limits.validate()),
             ("recording", self.recording.validate()),
         ];
@@ -108,7 +109,9 @@ impl SyntheticConfig {
 impl Limits {
     fn validate(&self) -> Result<(), FieldError> {
         positive("goal_error_m", self.goal_error_m)?;
-        not_negative("clearance_m", self.clearance_m)
+        not_negative("clearance_m", self.clearance_m)?;
+        self.object_clearance_m.map_or(Ok(()), |clearance_m| not_negative("object_clearance_m", clearance_m))?;
+        self.knocked_m.map_or(Ok(()), |knocked_m| not_negative("knocked_m", knocked_m))
     }
 }
 

@@ -10,7 +10,7 @@ use skills::field::FieldError;
 
 pub use demonstrations::{DEMONSTRATIONS_SCHEMA, DemonstrationTrial, DemonstrationsReport, ShownTrial};
 pub use push::PushConfig;
-pub(crate) use push::read_demonstration;
+pub(crate) use push::{CarriedOut, read_demonstration};
 
 use crate::outcome::Outcome;
 use crate::pipeline::{Progress, Report, RunError, learn_task, run_task};
@@ -148,6 +148,13 @@ pub(crate) fn dispatch(
         TaskConfig::Push(config) => {
             run_task(&push::PushTask::new(scenario, config, seed), scenario, seed, observer, progress)
         }
+    }
+}
+
+/// Carries a push out and keeps what came up on the way.
+pub(crate) fn carry_out(scenario: &ResolvedScenario, seed: u64) -> Result<CarriedOut, StageError> {
+    match &scenario.scenario.task {
+        TaskConfig::Push(config) => push::carry_out(&push::PushTask::new(scenario, config, seed)),
     }
 }
 

@@ -17,6 +17,8 @@ pub struct EpisodeSample {
     pub world_from_object: Isometry2<f64>,
     /// Where the plan expects the object.
     pub world_from_object_expected: Isometry2<f64>,
+    /// Whether the tool is off the object to renew its hold.
+    pub renews_hold: bool,
     /// Magnitude of the tool's force on the object, N; zero without contact.
     pub tool_force_n: f64,
     /// Sliding speed where the tool touches the object, m/s.

@@ -182,6 +182,7 @@ struct Run<'a> {
     /// Whether something touched an obstacle in the last control period.
     hit_obstacle: bool,
     gave_up: bool,
+    renewed_hold: bool,
     last_touch_s: Option<f64>,
     lost_contact: bool,
 }
@@ -210,6 +211,7 @@ impl<'a> Run<'a> {
             was_limited: false,
             hit_obstacle: false,
             gave_up: false,
+            renewed_hold: false,
             last_touch_s: None,
             lost_contact: false,
             world,
@@ -265,6 +267,7 @@ impl<'a> Run<'a> {
             world_from_tool_reference: reference.tool.pose(),
             world_from_object: self.world.world_from_object(),
             world_from_object_expected: reference.world_from_object_expected,
+            renews_hold: reference.renews_hold,
             tool_force_n: self.world.force_on_object_n(Party::Tool).norm(),
             slip_m_per_s: on_object.map(|contact| contact.slip_m_per_s.abs()).fold(0.0, f64::max),
             hits_obstacle: self.hit_obstacle,
@@ -290,6 +293,10 @@ impl<'a> Run<'a> {
             tell(EventLevel::Warning, "the push has run out of time and is given up".into());
         }
         self.gave_up = reference.gives_up;
+        if reference.renews_hold && !self.renewed_hold {
+            tell(EventLevel::Info, "the hold is renewed: the object is to be held elsewhere on the surface".into());
+        }
+        self.renewed_hold = reference.renews_hold;
         let touches =
             self.world.contacts().iter().any(|contact| contact.force_on_n(Party::Object, Party::Tool).is_some());
         match self.last_touch_s {

@@ -7,7 +7,7 @@ use sim::planar::{ClosedLoop, ClosedLoopConfig, ReferenceSource};
 use sim::random::{Purpose, stream};
 use sim::sensing::{Camera, CameraConfig};
 use skills::plan::{Action, ActionKind, Plan, PlanarMotion, Push, Track};
-use skills::pushing::SteeringConfig;
+use skills::pushing::{HoldRenewalConfig, SteeringConfig};
 
 use super::arm::{POSTURE, model};
 use super::steering::{object, stick};
@@ -33,7 +33,12 @@ fn seeing_steering_following_and_controlling_allocate_nothing() {
     let plan = push();
     let tool = stick();
     let camera_config = CameraConfig::default();
-    let config = ClosedLoopConfig { steering: SteeringConfig::default(), response_s: 0.05, patience: 2.0 };
+    let config = ClosedLoopConfig {
+        steering: SteeringConfig::default(),
+        response_s: 0.05,
+        patience: 2.0,
+        hold_renewal: HoldRenewalConfig::default(),
+    };
     let mut source = ClosedLoop::new(&plan, &tool, &object(), &camera_config, config, 0.001);
     let mut camera = Camera::new(&camera_config, stream(1, Purpose::Camera, 0));
     let model = model(0.01);

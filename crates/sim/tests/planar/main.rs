@@ -4,6 +4,7 @@
 
 mod allocation;
 mod arm;
+mod hold_renewal;
 mod pushing;
 mod quasi_static;
 mod steering;

@@ -60,14 +60,16 @@ pub struct Steering {
     direction: Unit<Vector2<f64>>,
     /// Signed radius of the contact surface, m: infinite for a face.
     surface_radius_m: f64,
-    /// Half of the surface's usable length, m.
-    half_length_m: f64,
+    /// What the surface leaves to the left of where the object is held, m.
+    left_m: f64,
+    /// What it leaves to the right, m.
+    right_m: f64,
     /// Distance of the object's center from the contact, m.
     object_radius_m: f64,
     /// κ: share of a motion of the tool along the contact's tangent that turns the line of contact.
     rolling_share: f64,
     /// (1 − κ)/κ: way that the object is dragged along per change of its offset.
-    drag: f64,
+    pub(super) drag: f64,
 }
 
 /// What the tool should do now.
@@ -75,7 +77,7 @@ pub struct Steering {
 pub struct SteeringCommand {
     /// Velocity of the tool, world axes, m/s.
     pub velocity_world: Vector2<f64>,
-    /// Lateral offset of the object's center from the middle of the surface, m: positive to the left of the push.
+    /// Lateral offset of the object's center from where it is to be held, m: positive to the left of the push.
     pub offset_m: f64,
     /// Deviation of the object's center from its line, m: positive to the left of the push.
     pub deviation_m: f64,
@@ -84,8 +86,8 @@ pub struct SteeringCommand {
 impl Steering {
     /// Prepares a push along the line through `line_point` in `direction`.
     ///
-    /// `surface_radius_m` and `half_length_m` belong to the contact surface, `object_radius_m` and
-    /// `friction_length_m` (moment-to-force ratio c of the support friction) to the object.
+    /// `surface_radius_m` and `half_length_m` belong to the contact surface, in whose middle the object is held;
+    /// `object_radius_m` and `friction_length_m` (moment-to-force ratio c of the support friction) to the object.
     #[must_use]
     pub fn new(
         config: &SteeringConfig,
@@ -100,10 +102,27 @@ impl Steering {
         let rolling_share = 1.0 / (1.0 + ratio * ratio);
         let config = config.clone();
         let drag = ratio * ratio;
-        Self { config, line_point, direction, surface_radius_m, half_length_m, object_radius_m, rolling_share, drag }
+        Self {
+            config,
+            line_point,
+            direction,
+            surface_radius_m,
+            left_m: half_length_m,
+            right_m: half_length_m,
+            object_radius_m,
+            rolling_share,
+            drag,
+        }
     }
 
-    /// Velocity of a tool whose surface has its middle at `contact` with outward `normal`, for an object at `center`.
+    /// Returns the same push with the object held `place_m` off the middle of the surface, m: positive to the left.
+    #[must_use]
+    pub fn held_at(self, place_m: f64) -> Self {
+        // a hold beyond the end has no room on that side
+        Self { left_m: (self.left_m - place_m).max(0.0), right_m: (self.right_m + place_m).max(0.0), ..self }
+    }
+
+    /// Velocity of a tool that should hold the object at `contact` with outward `normal`, for an object at `center`.
     #[must_use]
     pub fn command(
         &self,
@@ -124,26 +143,50 @@ impl Steering {
     }
 
     /// ρ: signed distance of the object's center from the center of a round surface, m; `None` where the object cannot lean.
-    fn reach_m(&self) -> Option<f64> {
+    pub(super) fn reach_m(&self) -> Option<f64> {
         let reach_m = self.surface_radius_m + self.object_radius_m;
         (reach_m.is_finite() && reach_m.abs() > SOCKET_M).then_some(reach_m)
     }
 
     /// uᵈ: the offset at which the object should be held to come back to its line, within what the surface allows, m.
-    fn wanted_offset_m(&self, deviation_m: f64) -> f64 {
+    pub(super) fn wanted_offset_m(&self, deviation_m: f64) -> f64 {
         match self.reach_m() {
             Some(reach_m) => {
                 // the object moves along the line of centers: lean it back to the line
                 let length_m = self.config.line_length_m.max(STABLE_MARGIN * self.drag * reach_m);
-                let largest = self.half_length_m * reach_m / self.surface_radius_m;
-                limited(-deviation_m * reach_m / length_m, self.config.offset_share * largest)
+                self.within_room_m(-deviation_m * reach_m / length_m)
             }
             // on a face only rolling moves the object sideways, by the drag that its offset costs
-            None if self.surface_radius_m.is_infinite() && self.drag > 0.0 => {
-                limited(deviation_m / self.drag, self.config.offset_share * self.half_length_m)
-            }
+            None if self.rolls_on_a_face() => self.within_room_m(deviation_m / self.drag),
             None => 0.0,
         }
+    }
+
+    /// Whether the object rolls, and on something straight.
+    pub(super) fn rolls_on_a_face(&self) -> bool {
+        self.surface_radius_m.is_infinite() && self.drag > 0.0
+    }
+
+    /// Offset per way along the surface: on a round one the object's center goes farther than the contact.
+    fn offset_per_place(&self) -> f64 {
+        self.reach_m().map_or(1.0, |reach_m| (reach_m / self.surface_radius_m).abs())
+    }
+
+    /// The offset, limited to the share of the surface that may be asked for, m.
+    pub(super) fn within_room_m(&self, offset_m: f64) -> f64 {
+        let share = self.config.offset_share * self.offset_per_place();
+        offset_m.max(-share * self.right_m).min(share * self.left_m)
+    }
+
+    /// How far the contact lies beyond the usable surface, m; negative within it.
+    pub(super) fn overhang_m(&self, offset_m: f64) -> f64 {
+        let place_m = offset_m / self.offset_per_place();
+        (place_m - self.left_m).max(-place_m - self.right_m)
+    }
+
+    /// Whether the surface bulges, so that a tool that backs off can go sideways past the object.
+    pub(super) fn bulges(&self) -> bool {
+        self.surface_radius_m > 0.0 && self.surface_radius_m.is_finite()
     }
 }
 

@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 use super::*;
+use crate::pushing::HoldRenewalConfig;
 
 /// Disc of 12 mm radius on a surface with c/R = 2/3, as the ellipsoid of a uniform disc has it.
 const OBJECT_RADIUS_M: f64 = 0.012;
@@ -211,6 +212,32 @@ fn on_a_face_half_of_a_deviation_is_traded_for_an_offset() {
     let (deviation_m, offset_m) = Rolling::new(f64::INFINITY, 0.0004, 0.0).push(Some(&steering(f64::INFINITY)), 0.1);
     assert_relative_eq!(deviation_m, 0.0002, max_relative = 1e-3);
     assert_relative_eq!(offset_m, 0.00045, max_relative = 1e-3);
+}
+
+#[test]
+fn on_a_face_a_hold_on_the_other_side_mends_all_of_a_deviation() {
+    let steering = steering(f64::INFINITY);
+    // half of 3 mm is left at uᵈ = 1.5·9/4 mm
+    let (spent_m, offset_m) = Rolling::new(f64::INFINITY, 0.003, 0.0).push(Some(&steering), 0.1);
+    assert_relative_eq!(spent_m, 0.0015, max_relative = 1e-3);
+    let config = HoldRenewalConfig::default();
+    let renewed_m = steering.renewed_offset_m(&config, offset_m, spent_m).unwrap();
+    assert_relative_eq!(renewed_m, -0.003375, max_relative = 1e-3);
+    let (deviation_m, offset_m) = Rolling::new(f64::INFINITY, spent_m, renewed_m).push(Some(&steering), 0.1);
+    assert!(deviation_m.abs() < 1e-6 && offset_m.abs() < 1e-6, "{deviation_m} {offset_m}");
+}
+
+#[test]
+fn a_hold_off_the_middle_has_more_room_on_one_side() {
+    for (radius_m, per_place) in [(f64::INFINITY, 1.0), (HEAD_M, -3.0)] {
+        let aside = steering(radius_m).held_at(0.003);
+        let sign = f64::signum(per_place);
+        // 2 mm to the left and 8 mm to the right, nine tenths of them
+        assert_relative_eq!(aside.wanted_offset_m(sign), 0.0018 * per_place.abs(), epsilon = ROUNDING);
+        assert_relative_eq!(aside.wanted_offset_m(-sign), -0.0072 * per_place.abs(), epsilon = ROUNDING);
+    }
+    assert_eq!(steering(f64::INFINITY).held_at(0.006).wanted_offset_m(1.0), 0.0);
+    assert_eq!(steering(f64::INFINITY).held_at(0.0), steering(f64::INFINITY));
 }
 
 fn any_radius_m() -> impl Strategy<Value = f64> {

@@ -120,7 +120,8 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
     let goal_error = end.map(|sample| (place(&sample.world_from_object) - goal).norm() * MM);
     let (object_clearance, tool_clearance) = clearances_m(task, episode);
     let clearance = |value: Option<f64>| value.map(|value| value * MM);
-    let at_least = Limit::AtLeast(limits.clearance_m * MM);
+    let tool_limit = Limit::AtLeast(limits.clearance_m * MM);
+    let object_limit = limits.object_clearance_m.map_or(tool_limit, |clearance_m| Limit::AtLeast(clearance_m * MM));
     let object_path: Vec<_> = looks(episode).map(|sample| place(&sample.world_from_object)).collect();
     let tool_path: Vec<_> = looks(episode).map(|sample| place(&sample.world_from_tool)).collect();
     let planned: Vec<_> = plan.actions().iter().flat_map(|action| drawn(&action.object)).collect();
@@ -146,14 +147,14 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
             "object to obstacles",
             clearance(object_clearance),
             "mm",
-            at_least,
+            object_limit,
         ));
         measures.push(Measure::judged(
             "tool_clearance_mm",
             "tool to obstacles",
             clearance(tool_clearance),
             "mm",
-            at_least,
+            tool_limit,
         ));
     }
     let margin =
@@ -178,10 +179,11 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
             "mm",
         ),
         Measure::reported("contact_losses", "contacts lost while pushing", contact.losses, "1"),
+        Measure::reported("renewed_holds_execution", "holds renewed while pushing", renewed_holds(episode), "1"),
         Measure::reported("contact_lost_s", "time without contact while pushing", contact.lost_s, "s"),
         Measure::reported("slip_mm", "sliding on the tool while pushing", contact.slip_m * MM, "mm"),
         Measure::reported("surface_used", "largest share of a surface's usable half", contact.surface_used, "1"),
-        Measure::reported("knocked_mm", "object moved between pushes", contact.knocked_m * MM, "mm"),
+        knocked(contact.knocked_m * MM, limits.knocked_m),
         Measure::reported("coasting_mm", "object's way after the last contact", contact.coasting_m * MM, "mm"),
         Measure::reported(
             "peak_force_n",
@@ -214,11 +216,30 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
     measures
 }
 
+/// How far the object went while it was not pushed, judged if there is a limit.
+fn knocked(way_mm: f64, limit_m: Option<f64>) -> Measure {
+    let (name, label, unit) = ("knocked_mm", "object moved between pushes", "mm");
+    match limit_m {
+        None => Measure::reported(name, label, way_mm, unit),
+        Some(limit_m) => Measure::judged(name, label, way_mm, unit, Limit::AtMost(limit_m * MM)),
+    }
+}
+
 /// Times that tool or object came to touch an obstacle.
 fn collisions(episode: &Episode) -> f64 {
-    let hits = || episode.samples.iter().map(|sample| sample.hits_obstacle);
-    let first = u8::from(hits().next().unwrap_or(false));
-    hits().zip(hits().skip(1)).filter(|(before, now)| !before && *now).count() as f64 + f64::from(first)
+    beginnings(episode, |sample| sample.hits_obstacle)
+}
+
+/// Times that the tool let the object go in a push to hold it elsewhere.
+fn renewed_holds(episode: &Episode) -> f64 {
+    beginnings(episode, |sample| sample.renews_hold)
+}
+
+/// Times that something began to be the case.
+fn beginnings(episode: &Episode, is_so: fn(&EpisodeSample) -> bool) -> f64 {
+    let all = || episode.samples.iter().map(is_so);
+    let first = u8::from(all().next().unwrap_or(false));
+    all().zip(all().skip(1)).filter(|(before, now)| !before && *now).count() as f64 + f64::from(first)
 }
 
 fn is_push(plan: &Plan, phase: usize) -> bool {
@@ -265,7 +286,10 @@ impl ContactStory {
                 story.knocked_m += moved;
                 continue;
             };
-            if sample.tool_force_n > 0.0 {
+            if sample.renews_hold {
+                // letting go on purpose is no loss, until the object is touched again
+                (gap_s, touched) = (0.0, false);
+            } else if sample.tool_force_n > 0.0 {
                 touched = true;
                 gap_s = 0.0;
                 story.slip_m += sample.slip_m_per_s * dt;

@@ -44,14 +44,15 @@ fn a_way_through_the_object_is_refused_wherever_the_object_stands() {
 }
 
 #[test]
-fn a_collision_is_counted_when_it_begins() {
-    let sample = |hits_obstacle| EpisodeSample {
+fn a_collision_and_a_renewed_hold_are_counted_when_they_begin() {
+    let sample = |hits_obstacle, renews_hold| EpisodeSample {
         time_s: 0.0,
         phase: 0,
         world_from_tool: Isometry2::identity(),
         world_from_tool_reference: Isometry2::identity(),
         world_from_object: Isometry2::identity(),
         world_from_object_expected: Isometry2::identity(),
+        renews_hold,
         tool_force_n: 0.0,
         slip_m_per_s: 0.0,
         hits_obstacle,
@@ -59,10 +60,16 @@ fn a_collision_is_counted_when_it_begins() {
         torque_share: 0.0,
         power_w: 0.0,
     };
-    let count = |hits: &[bool]| {
-        let samples = hits.iter().map(|hit| sample(*hit)).collect();
-        let digest = String::new();
-        collisions(&Episode { samples, control_period_s: 0.001, finished: true, interruption: None, digest })
+    let count = |all: &[bool]| {
+        let episode = |samples| {
+            let digest = String::new();
+            Episode { samples, control_period_s: 0.001, finished: true, interruption: None, digest }
+        };
+        let hit = episode(all.iter().map(|hit| sample(*hit, false)).collect());
+        let renewed = episode(all.iter().map(|renews| sample(false, *renews)).collect());
+        assert_eq!((renewed_holds(&hit), collisions(&renewed)), (0.0, 0.0));
+        assert_eq!(renewed_holds(&renewed), collisions(&hit));
+        collisions(&hit)
     };
     assert_eq!(count(&[]), 0.0);
     assert_eq!(count(&[false, false]), 0.0);

@@ -1,17 +1,19 @@
 //! Pushing: bring an object over a table to a goal.
 
+mod carried_out;
 mod config;
 mod demonstrations;
 mod judge;
 mod recorded;
 mod transferring;
+mod varying;
 
 use nalgebra::{DVector, Isometry2, Point2, Vector2};
 use robot::Manipulator;
 use sim::SimError;
 use sim::controllers::Controller;
 use sim::planar::{
-    ArmDescription, ClosedLoop, ClosedLoopConfig, Episode, Observer, OpenLoop, PlanarSetup, ReferenceSource,
+    ArmDescription, ArmReach, ClosedLoop, ClosedLoopConfig, Episode, Observer, OpenLoop, PlanarSetup, ReferenceSource,
     SceneDescription, arm_with_tool, check_reach, simulate,
 };
 use sim::random::{Purpose, stream};
@@ -20,10 +22,12 @@ use skills::plan::{Action, Plan, Track};
 use skills::tool_use::{LearningReport, PushProblem, SkillLibrary};
 use skills::transfer::Transfer;
 
+pub(crate) use carried_out::{CarriedOut, carry_out};
 pub use config::PushConfig;
 pub(crate) use recorded::read as read_demonstration;
 
 use demonstrations::Shown;
+use varying::Actual;
 
 use super::{ShownTrial, StageError, Task};
 use crate::outcome::Outcome;
@@ -45,6 +49,8 @@ pub struct PushTask<'a> {
     scenario: &'a ResolvedScenario,
     config: &'a PushConfig,
     seed: u64,
+    /// What is really there.
+    actual: Actual,
 }
 
 /// What was learned.
@@ -68,13 +74,13 @@ pub struct Checked {
 impl<'a> PushTask<'a> {
     /// The task that a scenario states.
     pub fn new(scenario: &'a ResolvedScenario, config: &'a PushConfig, seed: u64) -> Self {
-        Self { scenario, config, seed }
+        Self { scenario, config, seed, actual: Actual::new(scenario, config, seed) }
     }
 
     /// Looks at the object before anything moves: the camera, and the mean of its first frames.
     fn look_first(&self) -> Result<(Camera, Point2<f64>), StageError> {
         let mut camera = Camera::new(&self.scenario.scenario.camera, stream(self.seed, Purpose::Camera, 0));
-        let (there, period_s) = (self.world_from_object(), self.period_s());
+        let (there, period_s) = (self.actual.world_from_object, self.period_s());
         let (mut sum, mut frames, mut newest_s) = (Vector2::zeros(), 0, f64::NEG_INFINITY);
         for period in 0..(LOOK_FIRST_S / period_s) as usize {
             let sighting = camera.look(period as f64 * period_s, &there);
@@ -96,10 +102,6 @@ impl<'a> PushTask<'a> {
 
     fn period_s(&self) -> f64 {
         self.scenario.scenario.engine.control_period_s
-    }
-
-    fn world_from_object(&self) -> Isometry2<f64> {
-        Isometry2::new(Vector2::from(self.config.start_m), self.config.start_angle_rad)
     }
 
     fn scene_description(&self, checked: &Checked) -> SceneDescription {
@@ -155,26 +157,23 @@ impl<'a> PushTask<'a> {
         self.scenario.scenario.controller.build(joints).map_err(|error| StageError::Input(error.to_string()))
     }
 
-    fn reference_source<'p>(&'p self, plan: &'p Plan) -> Box<dyn ReferenceSource + 'p> {
-        let scenario = &self.scenario.scenario;
-        match scenario.execution.mode {
+    fn reference_source<'p>(&'p self, checked: &'p Checked) -> Result<Box<dyn ReferenceSource + 'p>, StageError> {
+        let (scenario, plan) = (&self.scenario.scenario, &checked.plan);
+        Ok(match scenario.execution.mode {
             ExecutionMode::OpenLoop => Box::new(OpenLoop::new(plan)),
             ExecutionMode::ClosedLoop => {
                 let config = ClosedLoopConfig {
                     steering: scenario.execution.steering.clone(),
                     response_s: scenario.execution.response_s,
                     patience: PATIENCE,
+                    hold_renewal: scenario.execution.hold_renewal.clone(),
                 };
-                Box::new(ClosedLoop::new(
-                    plan,
-                    &self.scenario.tool,
-                    &scenario.object,
-                    &scenario.camera,
-                    config,
-                    self.period_s(),
-                ))
+                let (tool, object, camera) = (&self.scenario.tool, &scenario.object, &scenario.camera);
+                let reach = ArmReach::new(&checked.model, &scenario.robot.tool_frame).map_err(broken)?;
+                let closed_loop = ClosedLoop::new(plan, tool, object, camera, config, self.period_s());
+                Box::new(closed_loop.renewing_holds(&scenario.world, &reach))
             }
-        }
+        })
     }
 }
 
@@ -253,9 +252,9 @@ impl Task for PushTask<'_> {
         let scene = self.scene_description(checked);
         let setup = PlanarSetup {
             world: &scenario.world,
-            object: &scenario.object,
-            world_from_object: self.world_from_object(),
-            tool: &self.scenario.tool,
+            object: &self.actual.object,
+            world_from_object: self.actual.world_from_object,
+            tool: &self.actual.tool,
             model: &checked.model,
             flange: &scenario.robot.tool_frame,
             engine: &scenario.engine,
@@ -264,7 +263,7 @@ impl Task for PushTask<'_> {
             longest_s: PATIENCE * checked.plan.duration_s() + self.config.settle_s,
         };
         let mut controller = self.controller(checked.model.joint_count())?;
-        let mut source = self.reference_source(&checked.plan);
+        let mut source = self.reference_source(checked)?;
         let mut camera = checked.camera.clone();
         simulate(&setup, &checked.posture, source.as_mut(), controller.as_mut(), &mut camera, observer).map_err(broken)
     }
@@ -279,6 +278,7 @@ impl Task for PushTask<'_> {
             measures.extend(transferring::measures(transfer));
             notes.extend(transferring::notes(transfer, &self.scenario.tool));
         }
+        measures.extend(self.actual.measures(&self.scenario.scenario.variation));
         measures.extend(judge::demonstration_measures(shown.failed.len(), &skills.report));
         let failures = episode.interruption.iter().cloned().collect();
         Outcome::judged(self.scenario, self.seed, measures, failures, notes, episode.digest.clone())

@@ -1,13 +1,16 @@
 //! A reference that is steered by the object that is seen.
 
 use nalgebra::{Isometry2, Unit, Vector2};
+use skills::outline::Outline;
 use skills::plan::{Action, ActionKind, Plan, PlanarMotion, Push};
-use skills::pushing::{Steering, SteeringConfig};
+use skills::pushing::{HoldRenewalConfig, Steering, SteeringConfig};
 use skills::tool::Tool;
+use skills::transfer::Reach;
 
+use super::renewal::{Hold, Renewals};
 use super::settling::Settling;
 use super::{ReferenceSource, ToolReference};
-use crate::planar::config::ObjectConfig;
+use crate::planar::config::{ObjectConfig, WorldConfig};
 use crate::planar::tracker::Tracker;
 use crate::sensing::{CameraConfig, Sighting};
 
@@ -15,7 +18,8 @@ use crate::sensing::{CameraConfig, Sighting};
 ///
 /// Rules. While pushing, the tool's velocity comes from the steering law, fed by a tracker that bridges the camera's
 /// latency with the tool's own measured motion; the push ends when the object has come as far along its line as planned,
-/// or when it has taken [`ClosedLoopConfig::patience`] times the planned time. Between pushes the planned way is bent to
+/// or when it has taken [`ClosedLoopConfig::patience`] times the planned time. Where steering can do no more, the hold is
+/// renewed at another place of the surface: see [`HoldRenewalConfig`]. Between pushes the planned way is bent to
 /// where the object rests, so that the next hold is taken where it is; every push aims at its planned end.
 #[derive(Clone, Debug)]
 pub struct ClosedLoop<'a> {
@@ -35,6 +39,9 @@ pub struct ClosedLoop<'a> {
     /// What it is shifted by because the object rests elsewhere than planned.
     object_shift: Settling,
     steering: Option<(Push, Steering, Unit<Vector2<f64>>)>,
+    renewals: Renewals,
+    /// Whether the object rolls on the tool, as steering and renewals take for granted.
+    rolls: bool,
     /// Time of the plan's action at which the object should be where it is.
     plan_clock_s: f64,
     /// Whether the current push has come to its end and the tool is stopping.
@@ -51,8 +58,10 @@ pub struct ClosedLoopConfig {
     pub steering: SteeringConfig,
     /// Time constant with which the reference takes up a commanded velocity, s.
     pub response_s: f64,
-    /// A push may last this many times its planned duration.
+    /// A push may last this many times its planned duration, renewals not counted.
     pub patience: f64,
+    /// When and how a hold is renewed during a push.
+    pub hold_renewal: HoldRenewalConfig,
 }
 
 /// Slowest speed of a push before it ends, as a share of its mean: what starts and ends at rest must still get there.
@@ -78,6 +87,8 @@ impl<'a> ClosedLoop<'a> {
         let object_radius_m = object.shape.inscribed_radius_m();
         Self {
             tracker: Tracker::new(tool, object_radius_m, friction_length_m, expected.point(), camera, period_s),
+            renewals: Renewals::none(config.hold_renewal.clone()),
+            rolls: matches!(object.shape, Outline::Disc { .. }),
             plan,
             tool,
             config,
@@ -97,6 +108,17 @@ impl<'a> ClosedLoop<'a> {
         }
     }
 
+    /// Lets holds be renewed where obstacles and reach leave the tool room beside its planned pushes.
+    ///
+    /// Without it none is: a tool that knows nothing of its surroundings keeps to its way. What does not roll gains nothing.
+    #[must_use]
+    pub fn renewing_holds(mut self, world: &WorldConfig, reach: &dyn Reach) -> Self {
+        if self.rolls && self.config.hold_renewal.most_per_push > 0 {
+            self.renewals.look_around(self.plan, self.tool, world, reach);
+        }
+        self
+    }
+
     fn begin(&mut self, phase: usize, time_s: f64) {
         let Some(action) = self.plan.actions().get(phase) else {
             self.finished = true;
@@ -109,6 +131,7 @@ impl<'a> ClosedLoop<'a> {
         self.object_shift = Settling::at(self.shift_for(action));
         self.is_over = false;
         self.gives_up = false;
+        self.renewals.begin_push();
         self.steering = match action.kind {
             ActionKind::ObjectOperating(push) => self.steer(push),
             ActionKind::ToolFlipping => None,
@@ -139,12 +162,11 @@ impl<'a> ClosedLoop<'a> {
             push.to_world,
             direction,
             surface.curvature_radius_m(),
-            // what is left of the surface to the nearer side
-            surface.length_m() / 2.0 - push.place_m.abs(),
+            surface.length_m() / 2.0,
             self.object_radius_m,
             self.friction_length_m,
         );
-        Some((push, steering, direction))
+        Some((push, steering.held_at(push.place_m), direction))
     }
 
     /// The planned way of the tool, bent from where the tool is to where the object is.
@@ -172,9 +194,13 @@ impl<'a> ClosedLoop<'a> {
     fn push(&mut self, action: &Action, local_s: f64, pose: &Isometry2<f64>) -> bool {
         let Some((push, steering, direction)) = &self.steering else { return true };
         let Some(surface) = self.tool.surfaces.get(push.surface) else { return true };
-        let middle = surface.contact_at(push.place_m);
-        let normal = pose.rotation * middle.normal;
+        let contact = surface.contact_at(push.place_m);
+        let normal = pose.rotation * contact.normal;
         let object = self.tracker.object_world();
+        if let Some(motion) = self.renewals.advance(&object, self.period_s) {
+            self.now = motion;
+            return false;
+        }
         let left_m = (push.to_world - object).dot(direction) - STOP_EARLY_M;
         let planned = action.tool.duration_s().max(self.period_s);
         // the plan's own time law, read where the object is along its line
@@ -186,11 +212,23 @@ impl<'a> ClosedLoop<'a> {
         let usual = (push.to_world - push.from_world).norm() / planned;
         let planned_speed = action.object.at(self.plan_clock_s).velocity.xy().dot(direction);
         let speed = planned_speed.max(usual * SLOWEST_SHARE);
-        let command = steering.command(&(pose * middle.point), &normal, &object, speed);
+        let command = steering.command(&(pose * contact.point), &normal, &object, speed);
         // a late frame does not begin a finished push anew
-        self.gives_up |= local_s > planned * self.config.patience;
+        self.gives_up |= local_s - self.renewals.spent_s() > planned * self.config.patience;
         self.is_over |= left_m <= 0.0 || self.gives_up;
+        let wanted = steering.renewed_offset_m(self.renewals.config(), command.offset_m, command.deviation_m);
+        let hold = Hold {
+            action: self.phase,
+            direction: *direction,
+            normal,
+            arm: pose.rotation * contact.point.coords,
+            planned_world: action.tool.start().point(),
+            object_radius_m: self.object_radius_m,
+            speed_m_per_s: usual,
+        };
         self.approach_velocity(if self.is_over { Vector2::zeros() } else { command.velocity_world }, action, local_s);
+        let wanted = wanted.filter(|_| !self.is_over);
+        self.renewals.hear(wanted, left_m, &hold, &self.now, &object, self.period_s);
         // the tool is at rest before the next action begins
         self.is_over && self.now.velocity.norm() < REST_M_PER_S
     }
@@ -244,7 +282,8 @@ impl ReferenceSource for ClosedLoop<'_> {
             world_from_object_expected: expected.pose(),
             object_believed_world: Some(self.tracker.object_world()),
             phase: self.phase,
-            is_pushing: self.steering.is_some(),
+            is_pushing: self.steering.is_some() && !self.renewals.is_under_way(),
+            renews_hold: self.renewals.is_under_way(),
             gives_up: self.gives_up,
             finished: self.finished,
         }

@@ -2,6 +2,8 @@
 
 mod closed_loop;
 mod open_loop;
+mod renewal;
+mod room;
 mod settling;
 
 use nalgebra::{Isometry2, Point2};
@@ -23,8 +25,10 @@ pub struct ToolReference {
     pub object_believed_world: Option<Point2<f64>>,
     /// Index of the current action.
     pub phase: usize,
-    /// Whether the current action pushes the object.
+    /// Whether the tool is to push the object now.
     pub is_pushing: bool,
+    /// Whether the tool is off the object to renew its hold in the current push.
+    pub renews_hold: bool,
     /// Whether the current push has run out of time and is being given up.
     pub gives_up: bool,
     /// Whether the plan has come to its end.

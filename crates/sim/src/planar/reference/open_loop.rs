@@ -31,6 +31,7 @@ impl ReferenceSource for OpenLoop<'_> {
             object_believed_world: None,
             phase,
             is_pushing: action.is_some_and(|action| matches!(action.kind, ActionKind::ObjectOperating(_))),
+            renews_hold: false,
             gives_up: false,
             finished: time_s >= self.plan.duration_s(),
         }
