@@ -66,7 +66,7 @@ fn a_goal_to_which_no_surface_pushes_is_an_outcome_with_its_reason() {
     let (code, outcome) = run(folder.path(), "never.toml", 1);
     assert_eq!(code, Some(1), "{outcome:#}");
     let reason = outcome["failures"][0].as_str().unwrap();
-    assert!(reason.contains("the surfaces of the tool 'l' push towards -90°, 180°, 90°"), "{reason}");
+    assert!(reason.contains("the surfaces of the tool 'l' push towards -90°, 90°, 180°"), "{reason}");
     assert_eq!(outcome["measures"], Value::Array(Vec::new()));
 }
 
