@@ -219,10 +219,9 @@ fn a_hold_that_the_tool_cannot_change_there_is_given_up_for_another_plan() {
     let tool = ell();
     let obstacles = [obstacle(), block(0.006, 0.006, [0.085, 0.022])];
     let problem = problem(&tool, &obstacles);
-    match problem.plan(&LIBRARY) {
-        Ok(found) => assert_sound(&problem, &found),
-        Err(error) => assert!(error.to_string().starts_with("plan transfer: "), "{error}"),
-    }
+    let found = problem.plan(&LIBRARY).unwrap();
+    assert_sound(&problem, &found);
+    assert!(found.barred_switches > 0);
 }
 
 #[test]
@@ -256,7 +255,8 @@ fn every_plan_for_random_tasks_is_sound() {
             Err(error) => refused.push(format!("task {index}: {error}")),
         }
     }
-    assert!(planned >= 5, "{planned} plans; {refused:#?}");
+    // the others begin or end inside an obstacle, would need a pull, or leave the tool no way round
+    assert!(planned >= 6, "{planned} plans; {refused:#?}");
 }
 
 #[test]
