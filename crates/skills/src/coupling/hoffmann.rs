@@ -32,8 +32,10 @@ pub struct Hoffmann {
 struct Turn {
     /// φ, rad.
     angle: f64,
-    /// Part of the way to the obstacle that lies ahead: d = `ahead`·v/‖v‖ + d⊥.
+    /// Part of the way to the obstacle that lies ahead: d = (`ahead` + `rest`)·v/‖v‖ + d⊥.
     ahead: f64,
+    /// What rounding leaves of it.
+    rest: f64,
     /// Norm of the velocity, not scaled by τ.
     speed: f64,
     /// n = R v φ = `scale`·d⊥.
@@ -116,17 +118,22 @@ impl Turn {
         let way = || obstacle.iter().zip(position).map(|(o, x)| o - x);
         // unit vectors first, so that neither a tiny nor a huge velocity loses the angle
         let ahead: f64 = way().zip(rate).map(|(d, v)| d * (v / speed)).sum();
-        let aside = norm(way().zip(rate).map(|(d, v)| d - ahead * (v / speed)));
+        // what rounding leaves along the velocity is all there is, nearly straight ahead: it is taken out once more
+        let rest: f64 = way().zip(rate).map(|(d, v)| (d - ahead * (v / speed)) * (v / speed)).sum();
+        let aside = norm(way().zip(rate).map(|(d, v)| d - ahead * (v / speed) - rest * (v / speed)));
         if aside == 0.0 {
             return None;
         }
         let angle = aside.atan2(ahead);
-        Some(Self { angle, ahead, speed, scale: -angle * (tau * speed / aside) })
+        Some(Self { angle, ahead, rest, speed, scale: -angle * (tau * speed / aside) })
     }
 
     // sum += gain·n
     fn add_to(&self, gain: f64, position: &[f64], rate: &[f64], obstacle: &[f64], sum: &mut [f64]) {
-        let aside = obstacle.iter().zip(position).zip(rate).map(|((o, x), v)| (o - x) - self.ahead * (v / self.speed));
+        let aside = obstacle.iter().zip(position).zip(rate).map(|((o, x), v)| {
+            let along = v / self.speed;
+            (o - x) - self.ahead * along - self.rest * along
+        });
         for (sum, aside) in sum.iter_mut().zip(aside) {
             *sum += gain * (self.scale * aside);
         }

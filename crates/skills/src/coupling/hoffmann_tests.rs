@@ -155,6 +155,16 @@ fn values_outside_their_range_are_refused_by_name() {
     assert!(matches!(infinite, Err(SkillError::NonFinite { row: 1, column: 1, .. })));
 }
 
+#[test]
+fn the_term_is_perpendicular_nearly_straight_away_from_an_obstacle() {
+    // found by chance: the way back to the obstacle differs from the velocity's line by 1e-6 rad
+    let (x, v) = ([0.08581884266281872, 0.5797302856591817], [-0.05035103713007999, 0.8593350929040825]);
+    let mut direction = [0.0; 2];
+    let angle = Hoffmann::features(&x, &v, &[0.11098280520813965, 0.15023322247473644], &mut direction);
+    assert!(PI - angle < 1e-4);
+    assert_abs_diff_eq!(direction[0] * v[0] + direction[1] * v[1], 0.0, epsilon = ROUNDING);
+}
+
 proptest! {
     #[test]
     fn the_term_is_perpendicular_to_the_velocity_and_points_away(
