@@ -1,7 +1,9 @@
-//! What can be wrong with a URDF text, a request or a pose, as values.
+//! What prevents the use of a URDF text, a request or a pose, as values.
 
 use nalgebra::DVector;
 use thiserror::Error;
+
+use crate::kinematics::inverse::unreachable::UnreachableReason;
 
 /// A refusal of this crate: what was found, what was expected, how to mend it.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -17,10 +19,66 @@ pub enum RobotError {
     },
     /// The text is a xacro source, not a URDF.
     #[error(
-        "read urdf: found the xacro construct `{found}`; expected plain URDF; expand the file with the `xacro` program first"
+        "read urdf: line {line}: found the xacro construct `{found}`; expected plain URDF; expand it first: xacro FILE > robot.urdf"
     )]
     Xacro {
         /// The construct that gave it away.
+        found: String,
+        /// Its line.
+        line: usize,
+    },
+    /// The file is XML, but of another kind.
+    #[error("read urdf: line {line}: the root element is <{found}>; expected <robot>; convert the file to URDF first")]
+    NotRobot {
+        /// Line of the root element.
+        line: usize,
+        /// Its name.
+        found: String,
+    },
+    /// An element lacks an attribute that it cannot do without.
+    #[error("read urdf: line {line}: {element} has no `{attribute}`; expected {attribute}=\"…\"; add it")]
+    MissingAttribute {
+        /// Line of the element.
+        line: usize,
+        /// The element, and whose it is.
+        element: String,
+        /// The missing attribute.
+        attribute: &'static str,
+    },
+    /// An element lacks a child that it cannot do without.
+    #[error("read urdf: line {line}: {element} has no <{child}>; expected one; add it")]
+    MissingElement {
+        /// Line of the element.
+        line: usize,
+        /// The element, and whose it is.
+        element: String,
+        /// The missing child.
+        child: &'static str,
+    },
+    /// A value is not the number, or the list of numbers, that belongs there.
+    #[error("read urdf: line {line}: {attribute}=\"{found}\" of {element}; expected {expected}; correct the value")]
+    NotNumbers {
+        /// Line of the element.
+        line: usize,
+        /// The element, and whose it is.
+        element: String,
+        /// The attribute.
+        attribute: &'static str,
+        /// Its value.
+        found: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// A joint has a type that URDF does not know.
+    #[error(
+        "read urdf: line {line}: joint `{joint}` has the type `{found}`; expected fixed, revolute, continuous or prismatic; correct it"
+    )]
+    UnknownJointType {
+        /// Line of the joint.
+        line: usize,
+        /// The joint.
+        joint: String,
+        /// The type found.
         found: String,
     },
     /// There are no links.
@@ -148,15 +206,69 @@ pub enum RobotError {
         /// The joint it names.
         target: String,
     },
-    /// Mimic joints are not modeled.
+    /// A mimic joint follows a joint that cannot move.
     #[error(
-        "read urdf: joint `{joint}` mimics `{target}`; expected independent joints; make it fixed, or remove <mimic> to drive it on its own"
+        "read urdf: joint `{joint}` mimics `{target}`, which is fixed; expected a movable joint; make `{joint}` fixed too or correct <mimic joint>"
     )]
-    MimicUnsupported {
+    MimicTargetFixed {
         /// The following joint.
         joint: String,
-        /// The joint it follows.
+        /// The fixed joint it names.
         target: String,
+    },
+    /// Mimic joints follow one another in a circle.
+    #[error(
+        "read urdf: joint `{joint}` mimics itself, directly or through other joints; expected a chain of <mimic> that ends at a joint without one; remove the <mimic> that closes it"
+    )]
+    MimicCycle {
+        /// A joint on, or leading to, the circle.
+        joint: String,
+    },
+    /// The limits of a joint and of those that mimic it exclude each other.
+    #[error(
+        "limit joint `{joint}`: no position within its own limits keeps `{follower}`, which mimics it, within {lower} to {upper} (rad or m); expected limits that meet; widen the limits of `{follower}` or correct its multiplier and offset"
+    )]
+    MimicLimitsEmpty {
+        /// The joint that leads.
+        joint: String,
+        /// The joint that follows.
+        follower: String,
+        /// Lower limit of the follower (rad or m).
+        lower: f64,
+        /// Upper limit of the follower (rad or m).
+        upper: f64,
+    },
+    /// A frame hangs behind a mimic joint, where the coordinates are not independent.
+    #[error(
+        "lead frame `{frame}`: joint `{joint}`, which carries it, mimics another joint; expected only independent joints between base and frame; lead a frame before `{joint}`"
+    )]
+    FrameBehindMimic {
+        /// The frame.
+        frame: String,
+        /// The mimic joint.
+        joint: String,
+    },
+    /// A joint moves nothing that has inertia, so that its acceleration has no meaning.
+    #[error(
+        "check dynamics: joint `{joint}` feels an inertia of {inertia:.2e} kg m² (kg if it slides); expected more than zero; give the links it moves an <inertial>, make it fixed, or set its rotor inertia"
+    )]
+    NoInertia {
+        /// The joint.
+        joint: String,
+        /// What it feels when the joints behind it move freely.
+        inertia: f64,
+    },
+    /// The inertia tensor of a moving body is negative about some axis.
+    #[error(
+        "check dynamics: the body of joint `{joint}` has principal moments {moments:?} kg m²; expected none below zero; correct <inertia> of {}", links.join(", ")
+    )]
+    NegativeInertia {
+        /// The joint that moves the body.
+        joint: String,
+        /// Links that form the body.
+        links: Vec<String>,
+        /// Principal moments about the center of mass (kg m²).
+        moments: [f64; 3],
     },
     /// No frame has the requested name.
     #[error("find frame: found no frame `{frame}`; expected one of {}; correct the name", known.join(", "))]
@@ -207,15 +319,16 @@ pub enum RobotError {
         joints: usize,
     },
     /// No joint vector within the limits reaches the pose.
-    #[error("reach pose: the closest posture misses by {position_error_m:.6} m and {angle_error_rad:.6} rad{}; expected a reachable pose; move the target or the base",
-        limiting_joint.as_ref().map(|joint| format!(" with joint `{joint}` at its limit")).unwrap_or_default())]
+    #[error(
+        "reach pose: the closest posture found misses by {position_error_m:.6} m and {angle_error_rad:.6} rad ({reason}); expected a reachable pose; move the target or the base"
+    )]
     Unreachable {
         /// Distance left at the closest posture (m).
         position_error_m: f64,
         /// Angle left at the closest posture (rad).
         angle_error_rad: f64,
-        /// The joint whose limit holds the arm back, if one does.
-        limiting_joint: Option<String>,
+        /// What holds the arm back.
+        reason: UnreachableReason,
         /// The closest posture found (one entry per joint; rad or m).
         q_closest: DVector<f64>,
     },
@@ -242,43 +355,5 @@ pub enum RobotError {
         frame: String,
         /// Smallest squared pivot of J Jᵀ.
         pivot: f64,
-    },
-}
-
-/// Something odd in a URDF that does not prevent its use.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum Warning {
-    /// The inertia tensor cannot belong to any rigid body.
-    #[error(
-        "link `{link}`: principal moments {moments:?} kg m² belong to no rigid body; expected positive values, none above the sum of the others"
-    )]
-    UnphysicalInertia {
-        /// The link.
-        link: String,
-        /// Principal moments of inertia about the center of mass (kg m²).
-        moments: [f64; 3],
-    },
-    /// A moving body has no mass at all.
-    #[error(
-        "joint `{joint}` moves a body without mass; expected an <inertial> on its links; dynamics need one or a rotor inertia"
-    )]
-    MasslessBody {
-        /// The joint that moves the body.
-        joint: String,
-    },
-    /// A mesh was left out.
-    #[error("link `{link}`: mesh `{file}` is ignored; only boxes, cylinders, capsules and spheres are drawn")]
-    MeshIgnored {
-        /// The link.
-        link: String,
-        /// The mesh's file name.
-        file: String,
-    },
-    /// A revolute or prismatic joint has no usable position limits.
-    #[error("joint `{joint}` has no position limits (absent, or both zero); it is taken as unlimited")]
-    LimitsAbsent {
-        /// The joint.
-        joint: String,
     },
 }

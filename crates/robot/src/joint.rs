@@ -2,6 +2,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Unit, Vector3};
 
+use crate::mimic::Mimic;
 use crate::shape::Shape;
 
 /// The motion a joint allows.
@@ -107,6 +108,8 @@ pub struct Joint {
     pub axis: Unit<Vector3<f64>>,
     /// Position, speed and effort limits.
     pub limits: JointLimits,
+    /// The joint it follows, if it is not independent; see [`crate::Manipulator::couplings`].
+    pub mimic: Option<Mimic>,
     /// Viscous damping of `<dynamics>` (N m s/rad or N s/m). Reported, not part of the equations of motion here.
     pub damping: f64,
     /// Coulomb friction of `<dynamics>` (N m or N). Reported, not part of the equations of motion here.

@@ -26,22 +26,34 @@
 //! ```
 
 mod dynamics;
+mod dynamics_check;
 mod error;
 mod joint;
 mod kinematics;
 mod manipulator;
+
+mod mesh;
+mod mimic;
+mod mismatch;
 mod shape;
 mod spatial;
 mod state;
 mod urdf;
+mod warning;
 mod workspace;
 
-pub use error::{RobotError, Warning};
+pub use error::RobotError;
 pub use joint::{Body, Joint, JointKind, JointLimits};
-pub use kinematics::differential::{DifferentialKinematics, FrameMotion};
-pub use kinematics::inverse::{InverseKinematics, InverseKinematicsOptions, InverseKinematicsSolution};
+pub use kinematics::differential::{DifferentialKinematics, FollowReport, FrameMotion};
+pub use kinematics::inverse::InverseKinematics;
+pub use kinematics::inverse::options::{InverseKinematicsOptions, InverseKinematicsReport, InverseKinematicsSolution};
+pub use kinematics::inverse::unreachable::UnreachableReason;
+pub use kinematics::redundancy::Redundancy;
 pub use kinematics::task_rows::{TaskError, TaskRows};
 pub use manipulator::{FrameId, Manipulator};
+pub use mesh::{MeshOptions, MeshProblem, TriangleMesh};
+pub use mimic::{Coupling, Mimic};
 pub use shape::{Geometry, Shape};
 pub use state::{JointReference, JointState};
+pub use warning::Warning;
 pub use workspace::Workspace;

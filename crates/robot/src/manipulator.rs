@@ -2,9 +2,10 @@
 
 use nalgebra::{Isometry3, Matrix3, Vector3};
 
-use crate::error::{RobotError, Warning};
+use crate::error::RobotError;
 use crate::joint::{Body, Joint};
 use crate::urdf;
+use crate::warning::Warning;
 use crate::workspace::Workspace;
 
 /// Standard gravity along the base's −z (m/s²).
@@ -38,11 +39,14 @@ impl Manipulator {
     /// Reads the model from the text of a URDF file. Gravity is (0, 0, −9.81) m/s² and the base stands at the world origin.
     ///
     /// Links behind fixed joints merge into the moving body and stay known as frames. Limits of zero effort or zero
-    /// velocity are read as "not stated". Rotor inertias are zero, since URDF has no element for them.
+    /// velocity are read as "not stated". Rotor inertias are zero, since URDF has no element for them. Mimic joints are
+    /// coordinates of their own with a stated coupling, see [`Self::couplings`]. No file is touched: meshes keep
+    /// their names until [`Self::resolve_meshes`]. What was left out, mended or is odd stands in [`Self::warnings`].
     ///
     /// # Errors
-    /// One variant of [`RobotError`] for each flaw: no XML, xacro, no tree, unknown or repeated names, zero axes,
-    /// reversed limits, numbers that are not finite, negative masses, unsupported joints, mimic joints.
+    /// One variant of [`RobotError`] for each flaw: no XML, xacro, no tree, unknown or repeated names, missing elements or
+    /// attributes, values that are no numbers or not finite, zero axes, reversed limits, negative masses, joints with
+    /// several freedoms, mimic joints that follow nobody or one another in a circle.
     pub fn from_urdf_str(xml: &str) -> Result<Self, RobotError> {
         urdf::read(xml)
     }

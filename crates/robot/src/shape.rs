@@ -1,9 +1,13 @@
-//! Primitive shapes of a link, for drawing and collision.
+//! Shapes of a link, for drawing and collision.
+
+use std::sync::Arc;
 
 use nalgebra::{Isometry3, Vector3};
 
-/// A primitive solid, centered on its own frame.
-#[derive(Debug, Clone, Copy, PartialEq)]
+use crate::mesh::TriangleMesh;
+
+/// A primitive solid, centered on its own frame, or a mesh in it.
+#[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
     /// A cuboid with these full edge lengths (m).
     Box {
@@ -29,16 +33,25 @@ pub enum Geometry {
         /// Radius (m).
         radius_m: f64,
     },
+    /// A surface of triangles from a file.
+    Mesh {
+        /// The file as the URDF names it.
+        uri: String,
+        /// Factors along x, y, z; negative ones mirror.
+        scale: Vector3<f64>,
+        /// The triangles, scaled; `None` until [`crate::Manipulator::resolve_meshes`] has read them.
+        triangles: Option<Arc<TriangleMesh>>,
+    },
 }
 
-/// A primitive placed on a body.
+/// A shape placed on a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// The URDF link it belongs to.
     pub link: String,
-    /// The solid.
+    /// The solid or mesh.
     pub geometry: Geometry,
-    /// Pose of the solid in the body frame.
+    /// Pose of the shape's frame in the body frame.
     pub body_from_shape: Isometry3<f64>,
     /// Red, green, blue, opacity, each 0 to 1, if the URDF gives a color.
     pub color_rgba: Option<[f64; 4]>,

@@ -2,8 +2,16 @@
 
 mod build;
 mod checks;
+mod clean;
+mod inertials;
+mod markup;
+mod mimics;
+mod schema;
 mod text;
 mod tree;
+mod values;
+
+pub(crate) use inertials::principal_moments;
 
 use crate::error::RobotError;
 use crate::manipulator::Manipulator;
@@ -11,11 +19,11 @@ use crate::manipulator::Manipulator;
 #[cfg(test)]
 mod tests;
 
-/// Parses, checks and merges.
+/// Cleans, parses, checks and merges.
 pub(crate) fn read(xml: &str) -> Result<Manipulator, RobotError> {
-    let robot = text::parse(xml)?;
+    let (robot, warnings) = text::parse(xml)?;
     checks::check_links(&robot)?;
     checks::check_joints(&robot)?;
     let tree = tree::Tree::new(&robot)?;
-    Ok(build::build(&robot, &tree))
+    build::build(&robot, &tree, warnings)
 }

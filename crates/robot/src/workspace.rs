@@ -17,6 +17,8 @@ struct JointTransform {
     cosine: Matrix3<f64>,
     axis_in_parent: Vector3<f64>,
     origin_in_parent: Vector3<f64>,
+    rotates: bool,
+    parent: Option<usize>,
 }
 
 impl JointTransform {
@@ -32,7 +34,30 @@ impl JointTransform {
             cosine: rotation * across,
             axis_in_parent: rotation * axis,
             origin_in_parent: joint.parent_from_joint.translation.vector,
+            rotates: joint.kind.rotates(),
+            parent: joint.parent,
         }
+    }
+
+    /// Writes the pose of the joint's body, and the motion that the joint allows, at position `q` (rad or m).
+    fn place_body(&self, parent: Option<&BodyState>, q: f64, body: &mut BodyState) {
+        let (relative, offset) = if self.rotates {
+            let (sine, cosine) = q.sin_cos();
+            (self.constant + self.sine * sine + self.cosine * cosine, self.origin_in_parent)
+        } else {
+            (self.constant, self.origin_in_parent + self.axis_in_parent * q)
+        };
+        let (rotation, origin, axis) = match parent {
+            Some(p) => (p.rotation * relative, p.origin + p.rotation * offset, p.rotation * self.axis_in_parent),
+            None => (relative, offset, self.axis_in_parent),
+        };
+        body.rotation = rotation;
+        body.origin = origin;
+        body.subspace = if self.rotates {
+            Motion { angular: axis, linear: origin.cross(&axis) }
+        } else {
+            Motion { angular: Vector3::zeros(), linear: axis }
+        };
     }
 }
 
@@ -94,7 +119,7 @@ impl Workspace {
     /// [`RobotError::WrongLength`].
     pub fn set_positions(&mut self, q: &DVector<f64>) -> Result<(), RobotError> {
         check_length("set positions: q", q.len(), self.model.joint_count())?;
-        self.dq.fill(0.0);
+        self.rest();
         self.place(q);
         Ok(())
     }
@@ -107,22 +132,42 @@ impl Workspace {
         check_length("set state: q", q.len(), self.model.joint_count())?;
         check_length("set state: dq", dq.len(), self.model.joint_count())?;
         self.dq.copy_from(dq);
-        self.place(q);
+        self.place_moving(q);
         Ok(())
     }
 
     /// Forward kinematics and velocities, from the base outward; lengths are checked by the callers.
+    fn place_moving(&mut self, q: &DVector<f64>) {
+        self.place(q);
+        for index in 0..self.bodies.len() {
+            let (before, rest) = self.bodies.split_at_mut(index);
+            let body = &mut rest[0];
+            let dq = self.dq[index];
+            let (velocity, bias) = self.transforms[index]
+                .parent
+                .map_or((Motion::zeros(), Motion::zeros()), |p| (before[p].velocity, before[p].bias_acceleration));
+            body.velocity = velocity + body.subspace.scaled(dq);
+            body.subspace_rate = velocity.cross(&body.subspace);
+            body.bias_acceleration = bias + body.subspace_rate.scaled(dq);
+        }
+    }
+
+    /// Forward kinematics alone, from the base outward; velocities keep their old values, and lengths are checked by the
+    /// callers.
     pub(crate) fn place(&mut self, q: &DVector<f64>) {
         self.dynamics.stale = true;
-        for (index, (joint, transform)) in self.model.joints.iter().zip(&self.transforms).enumerate() {
-            let parent = joint.parent.map(|parent| self.bodies[parent]);
-            let mut placed = place_body(joint, transform, parent.as_ref(), q[index]);
-            let (velocity, bias) =
-                parent.map_or((Motion::zeros(), Motion::zeros()), |p| (p.velocity, p.bias_acceleration));
-            placed.velocity = velocity + placed.subspace.scaled(self.dq[index]);
-            placed.subspace_rate = velocity.cross(&placed.subspace);
-            placed.bias_acceleration = bias + placed.subspace_rate.scaled(self.dq[index]);
-            self.bodies[index] = placed;
+        for (index, (transform, &q)) in self.transforms.iter().zip(q.iter()).enumerate() {
+            let (before, rest) = self.bodies.split_at_mut(index);
+            transform.place_body(transform.parent.map(|parent| &before[parent]), q, &mut rest[0]);
+        }
+    }
+
+    fn rest(&mut self) {
+        self.dq.fill(0.0);
+        for body in &mut self.bodies {
+            body.velocity = Motion::zeros();
+            body.subspace_rate = Motion::zeros();
+            body.bias_acceleration = Motion::zeros();
         }
     }
 
@@ -163,25 +208,6 @@ impl Workspace {
         let point = entry.body.map_or(offset, |body| self.bodies[body].origin + self.bodies[body].rotation * offset);
         (entry.body, point)
     }
-}
-
-/// Poses of one body and the motion its joint allows; the velocities are left at zero.
-fn place_body(joint: &Joint, transform: &JointTransform, parent: Option<&BodyState>, q: f64) -> BodyState {
-    let (sine, cosine) = if joint.kind.rotates() { q.sin_cos() } else { (0.0, 0.0) };
-    let slide = if joint.kind.rotates() { 0.0 } else { q };
-    let relative = transform.constant + transform.sine * sine + transform.cosine * cosine;
-    let offset = transform.origin_in_parent + transform.axis_in_parent * slide;
-    let (rotation, origin, axis) = match parent {
-        Some(p) => (p.rotation * relative, p.origin + p.rotation * offset, p.rotation * transform.axis_in_parent),
-        None => (relative, offset, transform.axis_in_parent),
-    };
-    let subspace = if joint.kind.rotates() {
-        Motion { angular: axis, linear: origin.cross(&axis) }
-    } else {
-        Motion { angular: Vector3::zeros(), linear: axis }
-    };
-    let at_rest = Motion::zeros();
-    BodyState { rotation, origin, subspace, subspace_rate: at_rest, velocity: at_rest, bias_acceleration: at_rest }
 }
 
 fn pose(rotation: &Matrix3<f64>, origin: &Vector3<f64>) -> Isometry3<f64> {

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{BRANCHED, CARTPOLE, PANDA, PLANAR_3R, Random, model};
+use common::{BRANCHED, CARTPOLE, GANTRY, PANDA, PLANAR_3R, Random, THREE_FINGERS, TWO_ARMS, model};
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix6xX, Translation3, UnitQuaternion, Vector3};
 use robot::{FrameId, Manipulator};
 
@@ -14,7 +14,7 @@ const STEP: f64 = 1e-5;
 /// Central differences with that step on values up to 100.
 const DIFFERENCE: f64 = 2e-7;
 
-const ARMS: [&str; 4] = [BRANCHED, CARTPOLE, PANDA, PLANAR_3R];
+const ARMS: [&str; 7] = [BRANCHED, CARTPOLE, PANDA, PLANAR_3R, TWO_ARMS, GANTRY, THREE_FINGERS];
 
 /// The arm with rotors, a tilted gravity and its last frame.
 fn loaded(urdf: &str) -> (Manipulator, FrameId) {
@@ -156,6 +156,25 @@ fn jacobian_gives_the_frame_velocity_and_its_rate_the_bias_acceleration() {
         assert!((turn - now.fixed_rows::<3>(3)).amax() < DIFFERENCE);
         let bias = workspace.jacobian_rate_times_velocity(frame);
         assert!(((ahead - behind) / (2.0 * STEP) - bias).amax() < DIFFERENCE);
+    });
+}
+
+#[test]
+fn jacobian_rate_is_the_derivative_of_the_jacobian() {
+    on_random_states(|arm, frame, q, dq| {
+        let mut workspace = arm.workspace();
+        let mut jacobian_at = |time: f64| {
+            let mut jacobian = Matrix6xX::zeros(0);
+            workspace.set_positions(&(q + dq * time)).unwrap();
+            workspace.jacobian_into(frame, &mut jacobian);
+            jacobian
+        };
+        let expected = (jacobian_at(STEP) - jacobian_at(-STEP)) / (2.0 * STEP);
+        let mut rate = Matrix6xX::zeros(0);
+        workspace.set_state(q, dq).unwrap();
+        workspace.jacobian_rate_into(frame, &mut rate);
+        assert!((&rate - expected).amax() < DIFFERENCE);
+        assert!((rate * dq - workspace.jacobian_rate_times_velocity(frame)).amax() < IDENTITY);
     });
 }
 

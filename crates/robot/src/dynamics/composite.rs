@@ -2,34 +2,44 @@
 
 use nalgebra::{DVector, Matrix3, Vector3};
 
-use crate::joint::{Body, parallel_axis};
+use crate::joint::Body;
 use crate::spatial::RigidInertia;
 use crate::workspace::{BodyState, Workspace};
 
 impl Workspace {
-    /// Brings inertias and composite inertias to the present state, once for each state.
+    /// Brings the bodies' inertias to the present state, once for each state.
     pub(crate) fn refresh_inertias(&mut self) {
         if !self.dynamics.stale {
             return;
         }
-        let scratch = &mut self.dynamics;
-        for (index, (joint, state)) in self.model.joints.iter().zip(&self.bodies).enumerate() {
-            scratch.inertias[index] = inertia_in_base(&joint.body, state);
-            scratch.composites[index] = scratch.inertias[index];
+        for ((joint, state), inertia) in self.model.joints.iter().zip(&self.bodies).zip(&mut self.dynamics.inertias) {
+            *inertia = inertia_in_base(&joint.body, state);
         }
+        self.dynamics.stale = false;
+        self.dynamics.composites_stale = true;
+    }
+
+    /// Brings inertias and composite inertias to the present state, once for each state.
+    pub(crate) fn refresh_composites(&mut self) {
+        self.refresh_inertias();
+        let scratch = &mut self.dynamics;
+        if !scratch.composites_stale {
+            return;
+        }
+        scratch.composites.copy_from_slice(&scratch.inertias);
         for (index, joint) in self.model.joints.iter().enumerate().rev() {
             if let Some(parent) = joint.parent {
                 let carried = scratch.composites[index];
                 scratch.composites[parent] += carried;
             }
         }
-        scratch.stale = false;
+        scratch.composites_stale = false;
     }
 
     /// Writes the torques g(q) (n entries; N m or N) that hold the arm against gravity at the present positions.
     pub fn gravity_into(&mut self, out: &mut DVector<f64>) {
         fit_vector(out, self.model.joint_count());
-        self.refresh_inertias();
+        self.refresh_composites();
         let gravity = self.model.gravity_in_base;
         for (index, (state, composite)) in self.bodies.iter().zip(&self.dynamics.composites).enumerate() {
             let moment = composite.first_moment.cross(&gravity);
@@ -56,13 +66,24 @@ impl Workspace {
     }
 }
 
+/// The body's inertia about the base origin, R I Rᵀ + m (|c|² 1 − c cᵀ); of the symmetric tensor one half is computed.
 fn inertia_in_base(body: &Body, state: &BodyState) -> RigidInertia {
-    let center = state.origin + state.rotation * body.center_of_mass_m;
-    let about_center: Matrix3<f64> = state.rotation * body.inertia_kg_m2 * state.rotation.transpose();
+    let rotation = &state.rotation;
+    let center = state.origin + rotation * body.center_of_mass_m;
+    let half = rotation * body.inertia_kg_m2;
+    let turned = |row: usize, column: usize| {
+        half[(row, 0)] * rotation[(column, 0)]
+            + half[(row, 1)] * rotation[(column, 1)]
+            + half[(row, 2)] * rotation[(column, 2)]
+    };
+    let (mass, squared) = (body.mass_kg, center.norm_squared());
+    let on = |axis: usize| turned(axis, axis) + (squared - center[axis] * center[axis]) * mass;
+    let off = |row: usize, column: usize| turned(row, column) - center[row] * center[column] * mass;
+    let (xy, xz, yz) = (off(0, 1), off(0, 2), off(1, 2));
     RigidInertia {
-        mass: body.mass_kg,
-        first_moment: center * body.mass_kg,
-        about_origin: about_center + parallel_axis(body.mass_kg, center),
+        mass,
+        first_moment: center * mass,
+        about_origin: Matrix3::new(on(0), xy, xz, xy, on(1), yz, xz, yz, on(2)),
     }
 }
 

@@ -18,7 +18,7 @@ impl Workspace {
     /// Writes the Coriolis matrix C(q, q̇) (n × n) of the Christoffel symbols: C q̇ is the velocity torque, Ṁ = C + Cᵀ.
     pub fn coriolis_matrix_into(&mut self, out: &mut DMatrix<f64>) {
         fit_square(out, self.model.joint_count());
-        self.refresh_inertias();
+        self.refresh_composites();
         self.refresh_coriolis_blocks();
         out.fill(0.0);
         let scratch = &self.dynamics;

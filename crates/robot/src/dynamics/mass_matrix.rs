@@ -10,7 +10,7 @@ impl Workspace {
     /// Featherstone, Rigid Body Dynamics Algorithms, 2008, section 6.2.
     pub fn mass_matrix_into(&mut self, out: &mut DMatrix<f64>) {
         fit_square(out, self.model.joint_count());
-        self.refresh_inertias();
+        self.refresh_composites();
         out.fill(0.0);
         for (index, joint) in self.model.joints.iter().enumerate() {
             let momentum = self.dynamics.composites[index].apply(&self.bodies[index].subspace);

@@ -9,6 +9,8 @@ use crate::spatial::{Force, Motion, RigidInertia};
 pub(crate) struct DynamicsScratch {
     /// True until inertias belong to the present state.
     pub stale: bool,
+    /// True until composites belong to the inertias.
+    pub composites_stale: bool,
     pub inertias: Vec<RigidInertia>,
     /// Inertia of each body together with everything it carries.
     pub composites: Vec<RigidInertia>,
@@ -31,6 +33,7 @@ impl DynamicsScratch {
     pub fn new(n: usize) -> Self {
         Self {
             stale: true,
+            composites_stale: true,
             inertias: vec![RigidInertia::zeros(); n],
             composites: vec![RigidInertia::zeros(); n],
             coriolis_blocks: vec![Matrix3::zeros(); n],

@@ -26,6 +26,26 @@ impl Workspace {
         }
     }
 
+    /// Writes the rate of change J̇ (6 × n) of [`Self::jacobian_into`]'s Jacobian in the present state, rows alike.
+    ///
+    /// # Panics
+    /// If the frame belongs to another model.
+    pub fn jacobian_rate_into(&self, frame: FrameId, out: &mut Matrix6xX<f64>) {
+        let n = self.model.joint_count();
+        if out.ncols() != n {
+            *out = Matrix6xX::zeros(n);
+        }
+        out.fill(0.0);
+        let (mut ancestor, point) = self.frame_point(frame);
+        let point_velocity = self.frame_velocity(frame).fixed_rows::<3>(0).into_owned();
+        while let Some(column) = ancestor {
+            let (subspace, rate) = (&self.bodies[column].subspace, &self.bodies[column].subspace_rate);
+            let linear = rate.linear + rate.angular.cross(&point) + subspace.angular.cross(&point_velocity);
+            out.set_column(column, &linear_first(linear, rate.angular));
+            ancestor = self.model.joints[column].parent;
+        }
+    }
+
     /// Returns J̇ q̇: the acceleration of a frame's origin (m/s², rows 0–2) and its angular acceleration (rad/s², rows 3–5)
     /// in base axes when all joint accelerations are zero.
     ///

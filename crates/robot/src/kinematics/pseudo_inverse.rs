@@ -28,13 +28,37 @@ impl PseudoInverse {
         Some(Self { factor, smallest_pivot })
     }
 
+    /// Returns (J Jᵀ + damping)⁻¹ times a task velocity.
+    pub fn weights(&self, task: &Vector6<f64>) -> Vector6<f64> {
+        self.factor.solve(task)
+    }
+
+    /// Takes from joint velocities what moves the frame: z − J⁺ J z. Locked joints must be at rest in `velocities`.
+    pub fn keep_null_part(
+        &self,
+        jacobian: &Matrix6xX<f64>,
+        locked: &[bool],
+        velocities: &mut DVector<f64>,
+        scratch: &mut DVector<f64>,
+    ) {
+        self.solve_into(jacobian, locked, &task_part(jacobian, velocities), scratch);
+        *velocities -= &*scratch;
+    }
+
     /// Writes the joint velocities (n entries) for a task velocity; locked joints get zero.
     pub fn solve_into(&self, jacobian: &Matrix6xX<f64>, locked: &[bool], task: &Vector6<f64>, out: &mut DVector<f64>) {
-        let weights = self.factor.solve(task);
+        let weights = self.weights(task);
         for ((column, &locked), value) in jacobian.column_iter().zip(locked).zip(out.iter_mut()) {
             *value = if locked { 0.0 } else { column.dot(&weights) };
         }
     }
+}
+
+/// Jacobian times joint velocities; zero in rows outside the task.
+pub(crate) fn task_part(jacobian: &Matrix6xX<f64>, velocities: &DVector<f64>) -> Vector6<f64> {
+    let mut task = Vector6::zeros();
+    task.gemv(1.0, jacobian, velocities, 0.0);
+    task
 }
 
 /// Sets the rows of a Jacobian outside the task to zero.

@@ -1,18 +1,19 @@
 //! The model out of a checked tree: fixed joints merge, movable joints become bodies.
 
-use nalgebra::{Isometry3, Matrix3, SymmetricEigen, Translation3, Unit, UnitQuaternion, Vector3};
+use std::collections::HashMap;
+
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use urdf_rs::{JointType, Link, Material, Pose, Robot};
 
-use crate::error::Warning;
+use crate::error::RobotError;
 use crate::joint::{Body, Joint, JointKind, JointLimits};
 use crate::manipulator::{Frame, Manipulator};
+use crate::mesh::MeshProblem;
+use crate::mimic;
 use crate::shape::{Geometry, Shape};
 use crate::urdf::tree::Tree;
-
-/// Relative room for rounding in the triangle inequality of principal moments, as files give about six digits.
-const TRIANGLE_TOLERANCE: f64 = 1e-6;
-/// Steps allowed for the eigenvalues of a 3 × 3 matrix, which takes about five.
-const EIGENVALUE_STEPS: usize = 100;
+use crate::urdf::{inertials, mimics};
+use crate::warning::Warning;
 
 /// A link still to be visited, with the joint that leads to it from a body already built.
 struct Visit {
@@ -32,13 +33,14 @@ struct Parts {
 }
 
 /// Builds the model, depth first in the order of the file, so that parents come before children.
-pub(crate) fn build(robot: &Robot, tree: &Tree) -> Manipulator {
-    let mut parts = Parts::default();
+pub(crate) fn build(robot: &Robot, tree: &Tree, warnings: Vec<Warning>) -> Result<Manipulator, RobotError> {
+    let mut parts = Parts { warnings, ..Parts::default() };
+    let colors = Colors::new(robot);
     let mut open =
         vec![Visit { link: tree.root, joint: None, parent_body: None, body_from_parent_link: Isometry3::identity() }];
     while let Some(visit) = open.pop() {
         let (body, body_from_link) = parts.enter(visit.joint.map(|joint| &robot.joints[joint]), &visit);
-        parts.add_link(&robot.links[visit.link], body, body_from_link, &robot.materials);
+        parts.add_link(&robot.links[visit.link], body, body_from_link, &colors);
         open.extend(tree.children[visit.link].iter().rev().map(|&(joint, link)| Visit {
             link,
             joint: Some(joint),
@@ -46,10 +48,35 @@ pub(crate) fn build(robot: &Robot, tree: &Tree) -> Manipulator {
             body_from_parent_link: body_from_link,
         }));
     }
+    mimics::resolve(robot, &mut parts.joints)?;
+    let narrowed = mimic::check_limits(&parts.joints)?;
     let massless = parts.joints.iter().filter(|joint| joint.body.mass_kg == 0.0);
-    let warnings: Vec<Warning> = massless.map(|joint| Warning::MasslessBody { joint: joint.name.clone() }).collect();
-    parts.warnings.extend(warnings);
-    Manipulator::from_parts(robot.name.clone(), parts.joints, parts.base, parts.frames, parts.warnings)
+    let massless = massless.map(|joint| Warning::MasslessBody { joint: joint.name.clone() });
+    parts.warnings.extend(narrowed.into_iter().chain(massless));
+    parts.check_finite()?;
+    Ok(Manipulator::from_parts(robot.name.clone(), parts.joints, parts.base, parts.frames, parts.warnings))
+}
+
+/// Named colors: those of the robot, then those that links define on the way, as files refer to either.
+struct Colors<'a>(HashMap<&'a str, [f64; 4]>);
+
+impl<'a> Colors<'a> {
+    fn new(robot: &'a Robot) -> Self {
+        let of_links = robot.links.iter().flat_map(|link| &link.visual).filter_map(|visual| visual.material.as_ref());
+        let mut colors = HashMap::new();
+        for material in robot.materials.iter().chain(of_links).filter(|material| !material.name.is_empty()) {
+            if let Some(color) = &material.color {
+                colors.entry(material.name.as_str()).or_insert(color.rgba.0);
+            }
+        }
+        Self(colors)
+    }
+
+    /// The color of a material, or that of its name.
+    fn of(&self, material: &Material) -> Option<[f64; 4]> {
+        let own = material.color.as_ref().map(|color| color.rgba.0);
+        own.or_else(|| self.0.get(material.name.as_str()).copied())
+    }
 }
 
 impl Parts {
@@ -75,6 +102,7 @@ impl Parts {
             parent_from_joint,
             axis: Unit::new_normalize(Vector3::from(joint.axis.xyz.0)),
             limits,
+            mimic: None,
             damping: joint.dynamics.as_ref().map_or(0.0, |dynamics| dynamics.damping),
             friction: joint.dynamics.as_ref().map_or(0.0, |dynamics| dynamics.friction),
             rotor_inertia: 0.0,
@@ -83,68 +111,58 @@ impl Parts {
         (Some(self.joints.len() - 1), Isometry3::identity())
     }
 
-    fn add_link(&mut self, link: &Link, body: Option<usize>, body_from_link: Isometry3<f64>, materials: &[Material]) {
+    fn add_link(&mut self, link: &Link, body: Option<usize>, body_from_link: Isometry3<f64>, colors: &Colors<'_>) {
         self.frames.push(Frame { name: link.name.clone(), body, body_from_frame: body_from_link });
         let target = match body {
             Some(index) => &mut self.joints[index].body,
             None => &mut self.base,
         };
         target.links.push(link.name.clone());
-        add_inertial(link, &body_from_link, target, &mut self.warnings);
+        inertials::add(link, &body_from_link, body.is_some(), target, &mut self.warnings);
         let mut place = |origin: &Pose, geometry: &urdf_rs::Geometry, color_rgba| {
-            let body_from_shape = body_from_link * isometry(origin);
-            match primitive(geometry) {
-                Ok(geometry) => Some(Shape { link: link.name.clone(), geometry, body_from_shape, color_rgba }),
-                Err(file) => {
-                    let warning = Warning::MeshIgnored { link: link.name.clone(), file: file.to_owned() };
-                    self.warnings.push(warning);
-                    None
-                }
+            let geometry = shape_of(geometry);
+            if let Geometry::Mesh { uri, .. } = &geometry {
+                let (link, problem) = (link.name.clone(), MeshProblem::NotResolved);
+                self.warnings.push(Warning::MeshIgnored { link, uri: uri.clone(), problem });
             }
+            let body_from_shape = body_from_link * isometry(origin);
+            Shape { link: link.name.clone(), geometry, body_from_shape, color_rgba }
         };
         for visual in &link.visual {
-            let color = visual.material.as_ref().and_then(|material| color_of(material, materials));
-            target.visuals.extend(place(&visual.origin, &visual.geometry, color));
+            let color = visual.material.as_ref().and_then(|material| colors.of(material));
+            target.visuals.push(place(&visual.origin, &visual.geometry, color));
         }
         for collision in &link.collision {
-            target.collisions.extend(place(&collision.origin, &collision.geometry, None));
+            target.collisions.push(place(&collision.origin, &collision.geometry, None));
         }
     }
-}
 
-fn add_inertial(link: &Link, body_from_link: &Isometry3<f64>, body: &mut Body, warnings: &mut Vec<Warning>) {
-    let written = &link.inertial.inertia;
-    let tensor = Matrix3::new(
-        written.ixx,
-        written.ixy,
-        written.ixz, //
-        written.ixy,
-        written.iyy,
-        written.iyz, //
-        written.ixz,
-        written.iyz,
-        written.izz,
-    );
-    if let Some(moments) = unphysical_moments(&tensor) {
-        warnings.push(Warning::UnphysicalInertia { link: link.name.clone(), moments });
+    /// Each number of the file is finite, but products of huge ones may not be.
+    fn check_finite(&self) -> Result<(), RobotError> {
+        let pose = |pose: &Isometry3<f64>| pose.to_homogeneous().iter().all(|value| value.is_finite());
+        let body = |body: &Body| {
+            let numbers = body.center_of_mass_m.iter().chain(&body.inertia_kg_m2);
+            let shapes = body.visuals.iter().chain(&body.collisions);
+            body.mass_kg.is_finite()
+                && numbers.copied().all(f64::is_finite)
+                && shapes.into_iter().all(|shape| pose(&shape.body_from_shape))
+        };
+        let refusal = |element: String| RobotError::NonFinite { element, quantity: "a product of its numbers" };
+        if !body(&self.base) {
+            return Err(refusal("the base".to_owned()));
+        }
+        let joint = |joint: &&Joint| {
+            let axis = joint.axis.iter().all(|value| value.is_finite());
+            !(axis && pose(&joint.parent_from_joint) && body(&joint.body))
+        };
+        if let Some(joint) = self.joints.iter().find(joint) {
+            return Err(refusal(format!("joint `{}` with the links it carries", joint.name)));
+        }
+        match self.frames.iter().find(|frame| !pose(&frame.body_from_frame)) {
+            Some(frame) => Err(refusal(format!("link `{}`", frame.name))),
+            None => Ok(()),
+        }
     }
-    let body_from_inertial = body_from_link * isometry(&link.inertial.origin);
-    let axes = body_from_inertial.rotation.to_rotation_matrix().into_inner();
-    let rotated = axes * tensor * axes.transpose();
-    body.add_part(link.inertial.mass.value, body_from_inertial.translation.vector, rotated);
-}
-
-/// The principal moments (kg m²) of a tensor that belongs to no rigid body; `None` for a physical one.
-fn unphysical_moments(tensor: &Matrix3<f64>) -> Option<[f64; 3]> {
-    let scale = tensor.amax();
-    if scale == 0.0 {
-        return None;
-    }
-    // scaled, so that huge numbers do not overflow inside the decomposition
-    let decomposition = SymmetricEigen::try_new(tensor / scale, f64::EPSILON, EIGENVALUE_STEPS);
-    let moments = decomposition.map_or(Vector3::repeat(f64::NAN), |found| found.eigenvalues);
-    let physical = moments.min() >= -TRIANGLE_TOLERANCE && 2.0 * moments.max() <= moments.sum() + TRIANGLE_TOLERANCE;
-    (!physical).then(|| (moments * scale).into())
 }
 
 /// Reads limits; the parser gives 0 or infinity for what the file does not state.
@@ -160,26 +178,21 @@ fn joint_limits(joint: &urdf_rs::Joint, kind: JointKind) -> JointLimits {
     }
 }
 
-/// The primitive, or the file name of a mesh.
-fn primitive(geometry: &urdf_rs::Geometry) -> Result<Geometry, &str> {
+fn shape_of(geometry: &urdf_rs::Geometry) -> Geometry {
     match geometry {
-        urdf_rs::Geometry::Box { size } => Ok(Geometry::Box { size_m: Vector3::from(size.0) }),
-        urdf_rs::Geometry::Cylinder { radius, length } => {
-            Ok(Geometry::Cylinder { radius_m: *radius, length_m: *length })
-        }
-        urdf_rs::Geometry::Capsule { radius, length } => Ok(Geometry::Capsule { radius_m: *radius, length_m: *length }),
-        urdf_rs::Geometry::Sphere { radius } => Ok(Geometry::Sphere { radius_m: *radius }),
-        urdf_rs::Geometry::Mesh { filename, .. } => Err(filename),
+        urdf_rs::Geometry::Box { size } => Geometry::Box { size_m: Vector3::from(size.0) },
+        urdf_rs::Geometry::Cylinder { radius, length } => Geometry::Cylinder { radius_m: *radius, length_m: *length },
+        urdf_rs::Geometry::Capsule { radius, length } => Geometry::Capsule { radius_m: *radius, length_m: *length },
+        urdf_rs::Geometry::Sphere { radius } => Geometry::Sphere { radius_m: *radius },
+        urdf_rs::Geometry::Mesh { filename, scale } => Geometry::Mesh {
+            uri: filename.trim().to_owned(),
+            scale: scale.map_or_else(|| Vector3::repeat(1.0), |scale| Vector3::from(scale.0)),
+            triangles: None,
+        },
     }
 }
 
-/// The color of a material, or of the robot's material of the same name.
-fn color_of(material: &Material, materials: &[Material]) -> Option<[f64; 4]> {
-    let named = || materials.iter().find(|other| other.name == material.name).and_then(|other| other.color.as_ref());
-    material.color.as_ref().or_else(named).map(|color| color.rgba.0)
-}
-
-fn isometry(pose: &Pose) -> Isometry3<f64> {
+pub(crate) fn isometry(pose: &Pose) -> Isometry3<f64> {
     let [roll, pitch, yaw] = pose.rpy.0;
     let [x, y, z] = pose.xyz.0;
     Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))

@@ -1,6 +1,6 @@
 //! Checks of single links and joints: names, numbers, types.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use urdf_rs::{Geometry, Joint, JointType, Link, Pose, Robot};
 
@@ -43,7 +43,10 @@ fn check_shapes(link: &Link) -> Result<(), RobotError> {
             Geometry::Box { size } => &size.0,
             Geometry::Cylinder { radius, length } | Geometry::Capsule { radius, length } => &[*radius, *length],
             Geometry::Sphere { radius } => &[*radius],
-            Geometry::Mesh { .. } => &[],
+            Geometry::Mesh { scale, .. } => {
+                check_finite(&element, "mesh scale", scale.as_ref().map_or(&[], |scale| &scale.0))?;
+                continue;
+            }
         };
         check_finite(&element, "shape size", sizes)?;
         check_not_negative(&element, "shape size", sizes)?;
@@ -53,9 +56,9 @@ fn check_shapes(link: &Link) -> Result<(), RobotError> {
 
 /// Checks names, types, axes, limits and mimics of all joints.
 pub(crate) fn check_joints(robot: &Robot) -> Result<(), RobotError> {
-    let mut seen = HashSet::new();
+    let mut types = HashMap::new();
     for joint in &robot.joints {
-        if !seen.insert(joint.name.as_str()) {
+        if types.insert(joint.name.as_str(), &joint.joint_type).is_some() {
             return Err(RobotError::DuplicateJoint { joint: joint.name.clone() });
         }
     }
@@ -63,7 +66,7 @@ pub(crate) fn check_joints(robot: &Robot) -> Result<(), RobotError> {
         let element = || format!("joint `{}`", joint.name);
         check_pose(&element, "origin", &joint.origin)?;
         check_type(joint)?;
-        check_mimic(joint, &seen)?;
+        check_mimic(joint, &types)?;
         if joint.joint_type != JointType::Fixed {
             check_axis(joint)?;
             check_limits(joint)?;
@@ -82,17 +85,22 @@ fn check_type(joint: &Joint) -> Result<(), RobotError> {
     Err(RobotError::UnsupportedJoint { joint: joint.name.clone(), kind })
 }
 
-fn check_mimic(joint: &Joint, names: &HashSet<&str>) -> Result<(), RobotError> {
+fn check_mimic(joint: &Joint, types: &HashMap<&str, &JointType>) -> Result<(), RobotError> {
     let Some(mimic) = &joint.mimic else { return Ok(()) };
-    let (joint_name, target) = (joint.name.clone(), mimic.joint.clone());
-    if !names.contains(target.as_str()) {
-        return Err(RobotError::MimicTargetMissing { joint: joint_name, target });
-    }
+    let (name, target) = (joint.name.clone(), mimic.joint.clone());
+    let Some(target_type) = types.get(target.as_str()) else {
+        return Err(RobotError::MimicTargetMissing { joint: name, target });
+    };
     // a fixed joint has nothing to couple, so its mimic says nothing
     if joint.joint_type == JointType::Fixed {
         return Ok(());
     }
-    Err(RobotError::MimicUnsupported { joint: joint_name, target })
+    let numbers = [mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0)];
+    check_finite(&|| format!("joint `{}`", joint.name), "mimic", &numbers)?;
+    match target_type {
+        JointType::Fixed => Err(RobotError::MimicTargetFixed { joint: name, target }),
+        _ => Ok(()),
+    }
 }
 
 fn check_axis(joint: &Joint) -> Result<(), RobotError> {

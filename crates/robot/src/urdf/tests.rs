@@ -35,8 +35,8 @@ fn text_that_is_not_xml_is_refused() {
 #[test]
 fn xacro_is_refused_by_name() {
     let error = refusal(r#"<xacro:include filename="arm.xacro"/>"#);
-    assert_eq!(error, RobotError::Xacro { found: "<xacro:".into() });
-    assert!(error.to_string().contains("xacro"), "{error}");
+    assert_eq!(error, RobotError::Xacro { found: "<xacro:include>".into(), line: 1 });
+    assert!(error.to_string().contains("xacro FILE > robot.urdf"), "{error}");
 }
 
 #[test]
@@ -114,19 +114,17 @@ fn negative_mass_is_refused() {
 
 #[test]
 fn joints_with_several_freedoms_are_refused_by_name() {
-    for kind in ["floating", "planar"] {
+    for kind in ["floating", "planar", "spherical"] {
         let error = refusal_with("revolute", kind);
         assert_eq!(error, RobotError::UnsupportedJoint { joint: "turn".into(), kind });
     }
 }
 
 #[test]
-fn mimic_joints_are_refused_with_a_remedy() {
-    let missing = refusal_with("</joint>", r#"<mimic joint="ghost"/></joint>"#);
-    assert_eq!(missing, RobotError::MimicTargetMissing { joint: "turn".into(), target: "ghost".into() });
-    let present = refusal_with("</joint>", r#"<mimic joint="turn"/></joint>"#);
-    assert_eq!(present, RobotError::MimicUnsupported { joint: "turn".into(), target: "turn".into() });
-    assert!(present.to_string().contains("make it fixed"), "{present}");
+fn joints_of_unknown_type_are_refused() {
+    let error = refusal_with("revolute", "rotational");
+    let expected = RobotError::UnknownJointType { line: 1, joint: "turn".into(), found: "rotational".into() };
+    assert_eq!(error, expected);
 }
 
 #[test]
@@ -157,8 +155,7 @@ fn fixed_links_merge_with_rotated_inertials_and_keep_their_frames() {
             <inertia ixx="1" ixy="0" ixz="0" iyy="2" iyz="0" izz="3"/></inertial></link>
         <link name="hand"><inertial><origin xyz="0 -1 0"/><mass value="1"/>
             <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>
-            <visual><origin xyz="0 0 1"/><geometry><sphere radius="0.5"/></geometry></visual>
-            <visual><geometry><mesh filename="hand.stl"/></geometry></visual></link>
+            <visual><origin xyz="0 0 1"/><geometry><sphere radius="0.5"/></geometry></visual></link>
         {JOINT}
         <joint name="weld" type="fixed"><origin xyz="1 0 0" rpy="0 0 1.5707963267948966"/>
             <parent link="arm"/><child link="hand"/></joint>"#
@@ -178,7 +175,7 @@ fn fixed_links_merge_with_rotated_inertials_and_keep_their_frames() {
     assert_relative_eq!(pose.translation.vector, Vector3::new(1.0, 0.0, 0.0), epsilon = ROUNDING);
     assert_eq!(body.visuals[0].geometry, Geometry::Sphere { radius_m: 0.5 });
     assert_relative_eq!(body.visuals[0].body_from_shape.translation.vector, Vector3::new(1.0, 0.0, 1.0));
-    assert_eq!(model.warnings(), [Warning::MeshIgnored { link: "hand".into(), file: "hand.stl".into() }]);
+    assert_eq!(model.warnings(), [Warning::PointMass { link: "hand".into(), mass_kg: 1.0 }]);
 }
 
 #[test]

@@ -2,12 +2,15 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use nalgebra::DVector;
-use robot::Manipulator;
+use nalgebra::{DVector, Isometry3, Translation3, UnitQuaternion};
+use robot::{FrameId, Manipulator};
 
 pub const PANDA: &str = include_str!("../../../../assets/robots/panda.urdf");
 pub const PLANAR_3R: &str = include_str!("../../../../assets/robots/planar_3r.urdf");
 pub const DOUBLE_PENDULUM: &str = include_str!("../data/double_pendulum.urdf");
+pub const TWO_ARMS: &str = include_str!("../data/two_arms.urdf");
+pub const GANTRY: &str = include_str!("../data/gantry.urdf");
+pub const THREE_FINGERS: &str = include_str!("../data/three_fingers.urdf");
 pub const CARTPOLE: &str = include_str!("../data/cartpole.urdf");
 
 /// A tree with a branch, a slide and skew axes: nothing that a serial arm about z would hide.
@@ -34,6 +37,39 @@ pub fn model(urdf: &str) -> Manipulator {
     Manipulator::from_urdf_str(urdf).unwrap()
 }
 
+/// The Panda's customary posture, elbow up and hand down.
+pub const READY: [f64; 7] = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785];
+
+pub fn planar() -> (Manipulator, FrameId) {
+    let arm = model(PLANAR_3R);
+    let flange = arm.frame("flange").unwrap();
+    (arm, flange)
+}
+
+pub fn panda() -> (Manipulator, FrameId) {
+    let arm = model(PANDA);
+    let tip = arm.frame("panda_hand_tcp").unwrap();
+    (arm, tip)
+}
+
+pub fn pose_of(arm: &Manipulator, frame: FrameId, q: &DVector<f64>) -> Isometry3<f64> {
+    let mut workspace = arm.workspace();
+    workspace.set_positions(q).unwrap();
+    workspace.base_from_frame(frame)
+}
+
+pub fn within_limits(arm: &Manipulator, q: &DVector<f64>) -> bool {
+    arm.joints().iter().zip(q.iter()).all(|(joint, &q)| joint.limits.clamp(q) == q)
+}
+
+pub fn planar_pose(x: f64, y: f64, angle: f64) -> Isometry3<f64> {
+    Isometry3::from_parts(Translation3::new(x, y, 0.0), UnitQuaternion::from_euler_angles(0.0, 0.0, angle))
+}
+
+pub fn planar_start() -> DVector<f64> {
+    DVector::from_vec(vec![-0.9, 1.8, -0.9])
+}
+
 /// A small reproducible generator of numbers in (−1, 1).
 pub struct Random(pub u64);
 
@@ -45,6 +81,14 @@ impl Random {
 
     pub fn vector(&mut self, n: usize, scale: f64) -> DVector<f64> {
         DVector::from_fn(n, |_, _| scale * self.next())
+    }
+
+    /// Normally distributed numbers of standard deviation `scale` (Box and Muller).
+    pub fn normal_vector(&mut self, n: usize, scale: f64) -> DVector<f64> {
+        DVector::from_fn(n, |_, _| {
+            let (radius, angle) = (0.5 * (1.0 + self.next()), std::f64::consts::PI * self.next());
+            scale * (-2.0 * radius.max(f64::MIN_POSITIVE).ln()).sqrt() * angle.cos()
+        })
     }
 
     /// Positions within the limits (±π where there are none), `margin` away from them.
