@@ -12,6 +12,8 @@
 //! | [`corridor_filter`] | keeps a motion inside a corridor, with a certificate that holds between samples | (29)–(32), Theorem 1 |
 //! | [`tool_flipping`] | changes the contact of tool and object without a collision, certified | (22)–(28) |
 //! | [`plan`] | chains actions and verifies continuity, contacts and clearances | Sec. IV.A.3 |
+//! | [`spatial`] | plans in space: timed tool poses with velocity and acceleration, verified between samples | Sec. III.A |
+//! | [`cutting`], [`pouring`] | learns a cut and a pour from one demonstration, plans them for other foods, knives and containers | Sec. IV.C |
 //! | [`tool_use`], [`transfer`] | learns pushing from demonstrations, plans with the same tool or with another one | Sec. III, IV.A |
 //! | [`baseline`] | RRT* and two-level tool planning, to compare with | Sec. IV.B |
 //!
@@ -48,16 +50,19 @@ pub mod corridor;
 pub mod corridor_filter;
 pub mod corridor_map;
 pub mod coupling;
+pub mod cutting;
 pub mod demonstration;
 pub mod error;
 pub mod field;
 pub mod outline;
 pub mod plan;
+pub mod pouring;
 pub mod primitive;
 pub mod pushing;
 pub mod regression;
 pub mod segmentation;
 pub mod separation;
+pub mod spatial;
 pub mod time_law;
 pub mod tool;
 pub mod tool_flipping;

@@ -8,7 +8,7 @@
 //! along the demonstration and small, so that its three coordinates are those of an ordinary DMP, linear and decoupled.
 
 mod motion;
-mod rotation;
+pub(crate) mod rotation;
 mod saved;
 mod trajectory;
 mod turning;

@@ -26,7 +26,7 @@ pub(super) fn nearest_branch(rotation: &UnitQuaternion<f64>, near: &Vector3<f64>
 /// Angular velocity ω of e^ρ and its derivative for a rotation vector ρ, rad, that moves with ρ̇ and ρ̈ (per unit of time
 /// or progress): ω = J(ρ)ρ̇ with J = I + a[ρ] + b[ρ]², a = (1 − cos φ)/φ², b = (φ − sin φ)/φ³, φ = |ρ|; in the frame that e^ρ
 /// leads into.
-pub(super) fn angular_motion(
+pub(crate) fn angular_motion(
     rho: &Vector3<f64>,
     rate: &Vector3<f64>,
     second: &Vector3<f64>,
