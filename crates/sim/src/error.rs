@@ -35,6 +35,12 @@ pub enum SimError {
         /// What is wrong and how to mend it.
         reason: String,
     },
+    /// A food cannot be divided as the knife went.
+    #[error("cut food: {reason}")]
+    Cutting {
+        /// What is wrong and how to mend it.
+        reason: String,
+    },
     /// A skill failed while the scene was run.
     #[error(transparent)]
     Skill(#[from] skills::SkillError),

@@ -6,6 +6,7 @@ pub mod human;
 pub mod planar;
 pub mod random;
 pub mod sensing;
+pub mod spatial;
 pub mod support;
 
 pub use error::SimError;

@@ -17,6 +17,10 @@ pub enum Purpose {
     Recorder = 4,
     /// What a run's world differs in from its scenario.
     Variation = 5,
+    /// Errors of the controller's model of its arm.
+    Model = 6,
+    /// Sizes of grains and how they lie.
+    Grains = 7,
 }
 
 /// Streams of one trial lie this far apart.

@@ -243,7 +243,9 @@ impl Task for PushTask<'_> {
         controller
             .check_stability(&mut workspace, &posture, self.period_s())
             .map_err(|error| StageError::Input(error.within("controller").to_string()))?;
-        let controller_notes = controller.describe(&mut workspace, &posture, self.period_s());
+        let flange =
+            model.frame(&scenario.robot.tool_frame).map_err(|error| StageError::Input(error.to_string()))?;
+        let controller_notes = controller.describe(&mut workspace, &posture, flange, self.period_s());
         Ok(Checked { plan, transfer, model, posture, camera, controller_notes })
     }
 
