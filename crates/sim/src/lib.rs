@@ -1,6 +1,7 @@
 //! Rapier scenes, controllers and the control loop.
 
 pub mod controllers;
+pub mod cutting;
 mod error;
 pub mod human;
 pub mod planar;

@@ -1,0 +1,11 @@
+//! Foods cut by a knife in the hand of a simulated arm, against closed forms and books that must balance.
+
+#![expect(clippy::expect_used, reason = "a test stops at the first surprise")]
+
+mod books;
+mod failures;
+mod fixture;
+mod forces;
+mod quality;
+mod steps;
+mod thirds;
