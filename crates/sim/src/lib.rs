@@ -5,6 +5,7 @@ pub mod cutting;
 mod error;
 pub mod human;
 pub mod planar;
+pub mod pouring;
 pub mod random;
 pub mod sensing;
 pub mod spatial;
