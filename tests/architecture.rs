@@ -20,7 +20,8 @@ const BORDERS: &[(&str, &[&str])] = &[
     ("rerun", &["crates/scenarios/src/recording/"]),
     ("rapier2d", &["crates/sim/"]),
     ("rapier3d", &["crates/sim/"]),
-    ("toml", &["crates/scenarios/"]),
+    // the tests of `sim` read shipped files; that nothing else there can is kept by the dependencies below
+    ("toml", &["crates/scenarios/", "crates/sim/"]),
     ("clap", &["crates/scenarios/"]),
     ("urdf_rs", &["crates/robot/"]),
 ];
@@ -176,6 +177,16 @@ fn every_shipped_file_is_listed_and_loads() {
             .extend((checked.status.code() != Some(0)).then(|| format!("{path}: `wield check` refuses it: {said}")));
     }
     assert_none("a shipped file cannot be used", &complaints);
+}
+
+#[test]
+fn every_asset_states_its_source() {
+    let stated = read("assets/README.md");
+    let kinds = ["robots", "tools", "foods", "knives", "containers"];
+    let files = kinds.iter().flat_map(|kind| files_below(Path::new(PROJECT), &format!("assets/{kind}")));
+    let name = |path: &str| path.rsplit('/').next().unwrap().to_owned();
+    let silent: Vec<String> = files.filter(|path| !stated.contains(&format!("`{}`", name(path)))).collect();
+    assert_none("assets/README.md has no row for a file", &silent);
 }
 
 #[test]

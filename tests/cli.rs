@@ -37,6 +37,7 @@ fn help_teaches() {
             &["demonstrate", "--help"],
             &["demonstrations.json", "time_s, tool_x_m", "assets = [", "Examples:", "Exit codes"],
         ),
+        (&["gains", "--help"], &["docs/arm.md", "--robot", "--frame", "Examples:", "Exit codes"]),
         (&["--version"], &["wield "]),
     ] {
         let output = wield(folder.path(), arguments);
@@ -98,6 +99,20 @@ fn list_names_what_there_is() {
     }
     let robots = stdout(&wield(folder.path(), &["list", "robots"]));
     assert!(robots.lines().any(|line| line.starts_with("planar_3r") && line.contains("3 joints")), "{robots}");
+}
+
+#[test]
+fn assets_that_few_scenarios_name_are_listed_once_there_are_some() {
+    let folder = tempfile::tempdir().unwrap();
+    let assets = folder.path().join("assets");
+    let list = |kinds: &[&str]| stdout(&program::wield(folder.path(), Some(&assets), &[&["list"], kinds].concat()));
+    fs::create_dir(&assets).unwrap();
+    assert!(!list(&[]).contains("foods:"));
+    assert_eq!(list(&["foods"]), "");
+    fs::create_dir(assets.join("foods")).unwrap();
+    fs::copy(Path::new(PROJECT).join("assets/foods/grape.toml"), assets.join("foods/grape.toml")).unwrap();
+    assert!(list(&[]).contains("foods:\n  grape  "), "{}", list(&[]));
+    assert!(list(&["foods"]).starts_with("grape  "), "{}", list(&["foods"]));
 }
 
 #[test]

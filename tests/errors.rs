@@ -229,6 +229,17 @@ fn a_mistake_in_a_robot_points_into_the_robots_file() {
 }
 
 #[test]
+fn a_flaw_of_a_robots_text_points_to_its_line() {
+    let folder = project();
+    let robot = folder.path().join("assets/robots/planar_3r.urdf");
+    let text = replaced(&fs::read_to_string(&robot).unwrap(), "<link name=\"flange\"/>", "<link nme=\"flange\"/>");
+    fs::write(&robot, &text).unwrap();
+    fs::write(folder.path().join("a.toml"), shipped()).unwrap();
+    let place = format!("planar_3r.urdf:{}", place(&text, "<link nme=\"flange\"/>"));
+    refused(folder.path(), &[&place, "the robot cannot be used", "<link> of the robot has no `name`"]);
+}
+
+#[test]
 fn a_name_that_no_folder_could_have_is_refused() {
     let parts = ["bad value for `name` in [scenario]", "expected letters, digits, `_` and `-` only"];
     refused_change("seed = 1\n", "seed = 1\nname = \"../up\"\n", "\"../up\"", &parts);
@@ -239,7 +250,9 @@ fn gains_that_sampling_makes_unstable_are_refused() {
     let folder = project();
     let text = replaced(&shipped(), "[10.0, 10.0, 10.0]", "[30.0, 30.0, 30.0]");
     assert!(fs::write(folder.path().join("a.toml"), text).is_ok());
-    refused(folder.path(), &["controller.impedance.damping_nm_s_per_rad", "expected a ratio below 2", "a.toml"]);
+    let parts =
+        ["controller.impedance.damping_nm_s_per_rad", "expected a stable loop", "inertia at joint `joint3`", "a.toml"];
+    refused(folder.path(), &parts);
 }
 
 #[test]

@@ -6,7 +6,10 @@ use std::path::Path;
 /// Folders without code, and what they hold; folders of code say it themselves, in the head of their module.
 const HELD: &[(&str, &str)] = &[
     ("assets", "What scenarios name; sources in assets/README.md."),
+    ("assets/containers", "Containers that are poured from or into."),
     ("assets/demonstrations", "Recorded demonstrations, one CSV file each."),
+    ("assets/foods", "Foods: shape, core, and how hard they are to cut."),
+    ("assets/knives", "Knives: blade, edge and how they are held."),
     ("assets/robots", "Arms, as URDF files."),
     ("assets/skills", "Learned skills, as `wield learn` writes them."),
     ("assets/tools", "Tools: outlines and contact surfaces."),

@@ -4,7 +4,9 @@ use std::path::Path;
 
 use nalgebra::{Isometry2, Point2, Unit, Vector2};
 use scenarios::outcome::{Limit, Measure, OUTCOME_SCHEMA, Outcome};
-use scenarios::scenario::{ResolvedScenario, Scenario};
+use scenarios::scenario::ResolvedScenario;
+use scenarios::tasks::ResolvedTask;
+use scenarios::tasks::push::{PushScenario, ResolvedPush};
 use sim::planar::{ArmDescription, ContactForce, Event, EventLevel, Observer, Party, Sample, SceneDescription};
 
 /// Control steps of the run: ten seconds and a rest that falls on no row.
@@ -18,15 +20,18 @@ pub fn scenario() -> ResolvedScenario {
     let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
     let source = read("scenarios/push_stick.toml");
     let tool: skills::tool::Tool = toml::from_str(&read("assets/tools/stick.toml")).unwrap();
-    ResolvedScenario {
-        name: "push_stick".into(),
-        scenario: toml::from_str::<Scenario>(&source).unwrap(),
+    let push = ResolvedPush {
+        scenario: toml::from_str::<PushScenario>(&source).unwrap(),
         tool: tool.clone(),
         demonstration_tool: tool,
-        arm: robot::Manipulator::from_urdf_str(&read("assets/robots/planar_3r.urdf")).unwrap(),
         recorded: Vec::new(),
         learned: None,
+    };
+    ResolvedScenario {
+        name: "push_stick".into(),
+        arm: robot::Manipulator::from_urdf_str(&read("assets/robots/planar_3r.urdf")).unwrap(),
         source,
+        task: ResolvedTask::Push(Box::new(push)),
     }
 }
 
@@ -39,11 +44,12 @@ fn object_at(time_s: f64) -> Point2<f64> {
 
 /// The scene of the run.
 pub fn scene(scenario: &ResolvedScenario) -> SceneDescription {
+    let push = scenario.as_push().unwrap();
     let object_path: Vec<_> = (0..=90).map(|k| object_at(f64::from(k) * 0.1) + Vector2::new(0.0, 0.001)).collect();
     SceneDescription {
-        world: scenario.scenario.world.clone(),
-        object: scenario.scenario.object.clone(),
-        tool: scenario.tool.clone(),
+        world: push.scenario.world.clone(),
+        object: push.scenario.object.clone(),
+        tool: push.tool.clone(),
         arm: ArmDescription {
             joints: ["shoulder", "elbow", "wrist"].map(String::from).to_vec(),
             torque_limits_nm: vec![5.0, 3.0, 1.0],

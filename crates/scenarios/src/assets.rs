@@ -1,4 +1,4 @@
-//! Assets: where tools, robots, demonstrations and skills are found, and that no name leads out of that folder.
+//! Assets: where tools, robots, demonstrations, skills and the like are found, and that no name leads out of that folder.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 /// Environment variable that names the folder of assets.
 pub const ASSETS_VARIABLE: &str = "WIELD_ASSETS";
 
-/// The folder in which tools, robots, demonstrations and skills are found by name.
+/// The folder in which tools, robots, demonstrations, skills and the like are found by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Assets {
     root: PathBuf,
@@ -23,6 +23,12 @@ pub enum AssetKind {
     Demonstration,
     /// Learned skills, `skills/*.toml`.
     Skills,
+    /// What is cut, `foods/*.toml`.
+    Food,
+    /// What cuts, `knives/*.toml`.
+    Knife,
+    /// What is poured from or into, `containers/*.toml`.
+    Container,
 }
 
 impl AssetKind {
@@ -34,6 +40,9 @@ impl AssetKind {
             Self::Robot => "robots",
             Self::Demonstration => "demonstrations",
             Self::Skills => "skills",
+            Self::Food => "foods",
+            Self::Knife => "knives",
+            Self::Container => "containers",
         }
     }
 
@@ -41,7 +50,7 @@ impl AssetKind {
     #[must_use]
     pub fn extension(self) -> &'static str {
         match self {
-            Self::Tool | Self::Skills => "toml",
+            Self::Tool | Self::Skills | Self::Food | Self::Knife | Self::Container => "toml",
             Self::Robot => "urdf",
             Self::Demonstration => "csv",
         }
@@ -55,6 +64,9 @@ impl AssetKind {
             Self::Robot => "robot",
             Self::Demonstration => "demonstration",
             Self::Skills => "file of skills",
+            Self::Food => "food",
+            Self::Knife => "knife",
+            Self::Container => "container",
         }
     }
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// If the folder cannot be written to; the old file, if any, is then untouched.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    refuse_what_is_no_file(path)?;
     let mut file = temporary_beside(path)?;
     file.write_all(bytes)?;
     file.persist(path).map_err(|error| error.error)?;
@@ -39,12 +40,21 @@ pub fn remove_empty(folders: &[PathBuf]) {
 /// Makes sure that the file `path` could be written, without touching it.
 ///
 /// # Errors
-/// If its folder is missing or cannot be written to, or if it is a folder itself.
+/// If its folder is missing or cannot be written to, or if it is a folder itself, a device or a pipe.
 pub fn probe(path: &Path) -> io::Result<()> {
     if path.is_dir() {
         return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
     }
+    refuse_what_is_no_file(path)?;
     temporary_beside(path).map(drop)
+}
+
+/// A device that is renamed over is gone for the whole machine.
+fn refuse_what_is_no_file(path: &Path) -> io::Result<()> {
+    match std::fs::metadata(path) {
+        Ok(found) if !found.is_file() => Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no ordinary file")),
+        _ => Ok(()),
+    }
 }
 
 /// Removes the file `path` if it is there.
@@ -71,6 +81,18 @@ fn temporary_beside(path: &Path) -> io::Result<tempfile::NamedTempFile> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_socket_is_not_replaced_by_a_file() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("socket");
+        let _listener = std::os::unix::net::UnixListener::bind(&path).unwrap();
+        assert!(probe(&path).is_err());
+        assert!(write_whole(&path, b"x").is_err());
+        assert!(std::fs::metadata(&path).unwrap().file_type().is_socket());
+    }
 
     #[test]
     fn a_file_is_replaced_and_nothing_else_is_left() {

@@ -47,7 +47,7 @@ impl Outcome {
         Self {
             schema: OUTCOME_SCHEMA.into(),
             scenario: scenario.name.clone(),
-            task: scenario.scenario.task.kind().into(),
+            task: scenario.kind().into(),
             seed,
             version: env!("CARGO_PKG_VERSION").into(),
             success: failures.is_empty(),

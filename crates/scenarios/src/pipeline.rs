@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use sim::planar::Observer;
+use sim::{planar, spatial};
 
 use crate::outcome::Outcome;
 use crate::scenario::{ResolvedScenario, SkillsFile};
-use crate::tasks::{self, ShownTrial, StageError, Task, dispatch, show};
+use crate::tasks::{ShownTrial, StageError, Task};
 
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
@@ -34,6 +34,11 @@ pub struct RunError {
 /// Told of a run's progress: stage, share done in [0, 1] if it is known.
 pub type Progress<'a> = &'a dyn Fn(&'static str, Option<f64>);
 
+/// Who looks on while a task is carried out, be its world plane or spatial: whoever observes both.
+pub trait Onlooker: planar::Observer + spatial::Observer {}
+
+impl<O: planar::Observer + spatial::Observer> Onlooker for O {}
+
 /// Runs a scenario from its demonstrations to its outcome.
 ///
 /// # Errors
@@ -41,10 +46,10 @@ pub type Progress<'a> = &'a dyn Fn(&'static str, Option<f64>);
 pub fn run(
     scenario: &ResolvedScenario,
     seed: u64,
-    observer: &mut dyn Observer,
+    observer: &mut dyn Onlooker,
     progress: Progress<'_>,
 ) -> Result<Report, RunError> {
-    dispatch(scenario, seed, observer, progress)
+    scenario.task.part().start(scenario, seed).run(scenario, seed, observer, progress)
 }
 
 /// Learns what a scenario's demonstrations show, and goes no further.
@@ -58,7 +63,7 @@ pub fn learn(
     seed: u64,
     progress: Progress<'_>,
 ) -> Result<Result<SkillsFile, String>, RunError> {
-    tasks::learn(scenario, seed, progress)
+    scenario.task.part().start(scenario, seed).learn(progress)
 }
 
 /// Lets the synthetic human of a scenario show its task until `count` trials succeeded, as many as the scenario wants if
@@ -77,7 +82,8 @@ pub fn demonstrate(
 ) -> Result<Option<String>, RunError> {
     const STAGE: &str = "demonstrate";
     progress(STAGE, None);
-    match show(scenario, seed, count, progress, &mut |trial| each(trial).map_err(StageError::Broken)) {
+    let task = scenario.task.part().start(scenario, seed);
+    match task.show(count, progress, &mut |trial| each(trial).map_err(StageError::Broken)) {
         Ok(()) => Ok(None),
         Err(StageError::Infeasible(reason)) => Ok(Some(reason)),
         Err(StageError::Input(reason)) => Err(RunError { stage: STAGE, reason, is_input: true }),
@@ -90,7 +96,7 @@ pub(crate) fn run_task<T: Task>(
     task: &T,
     scenario: &ResolvedScenario,
     seed: u64,
-    observer: &mut dyn Observer,
+    observer: &mut dyn Onlooker,
     progress: Progress<'_>,
 ) -> Result<Report, RunError> {
     let mut clock = Stages { timings_s: Vec::new(), at: "", progress };

@@ -7,8 +7,8 @@ use super::{Exit, keep_json, load_told, panics, prepare_told, say, say_aside, sa
 use crate::files::{remove_empty, remove_if_present, write_whole};
 use crate::pipeline::{RunError, demonstrate};
 use crate::report::demonstrations_text;
-use crate::scenario::{LARGEST_SEED, MOST_DEMONSTRATIONS, ResolvedScenario, notes};
-use crate::tasks::{DemonstrationsReport, ShownTrial};
+use crate::scenario::{LARGEST_SEED, ResolvedScenario, notes};
+use crate::tasks::{DemonstrationsReport, MOST_DEMONSTRATIONS, ShownTrial};
 
 pub const AFTER_HELP: &str = "\
 The human tries until enough trials have succeeded, at most four times as often as that. These are the trials from which
@@ -62,7 +62,7 @@ pub struct DemonstrateArguments {
 /// Loads the scenario, makes sure that files can be written, lets the human show the task, reports.
 pub fn execute(arguments: &DemonstrateArguments, assets: Option<&Path>) -> Exit {
     let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
-    let seed = arguments.seed.unwrap_or(scenario.scenario.scenario.seed);
+    let seed = arguments.seed.unwrap_or(scenario.header().seed);
     let usual = || seed_folder(&Path::new("runs").join(&scenario.name), seed).join("demonstrations");
     let out = arguments.out.clone().unwrap_or_else(usual);
     let Some(created) = prepare_told(&out) else { return Exit::BadInput };

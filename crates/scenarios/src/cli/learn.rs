@@ -41,7 +41,7 @@ pub struct LearnArguments {
 /// Loads the scenario, makes sure that the file can be written, learns, writes, reports.
 pub fn execute(arguments: &LearnArguments, assets: Option<&Path>) -> Exit {
     let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
-    let seed = arguments.seed.unwrap_or(scenario.scenario.scenario.seed);
+    let seed = arguments.seed.unwrap_or(scenario.header().seed);
     let out = arguments.out.clone().unwrap_or_else(|| format!("{}.skills.toml", scenario.name).into());
     if let Err(error) = probe(&out) {
         say_error(&unwritable(&out, &error, "--out"));

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use sim::cutting::food::FoodFile;
+use sim::cutting::knife::KnifeFile;
 
 use super::{Exit, assets_for, say, say_error};
 use crate::assets::{AssetKind, Assets, stems};
-use crate::scenario::{demonstration_description, skills_description, title, tool_description};
+use crate::scenario::{asset_description, demonstration_description, skills_description, stated_description, title};
 use crate::tasks::TASKS;
 
 /// Options of `wield list`.
@@ -32,6 +34,19 @@ enum Listed {
     Demonstrations,
     /// Learned skills
     Skills,
+    /// What can be cut
+    Foods,
+    /// What cuts
+    Knives,
+    /// What can be poured from or into
+    Containers,
+}
+
+impl Listed {
+    /// Whether a list of everything leaves it out if there is none.
+    fn is_rare(self) -> bool {
+        matches!(self, Self::Foods | Self::Knives | Self::Containers)
+    }
 }
 
 /// Prints one line for each thing of the kind, or of all kinds under their headings.
@@ -47,17 +62,22 @@ pub fn execute(arguments: &ListArguments, assets: Option<&Path>) -> Exit {
     match arguments.kind {
         Some(kind) => say(&lines(&entries(kind, &assets), "")),
         None => {
-            let sections = Listed::value_variants().iter().map(|&kind| section(kind, &assets));
+            let sections = Listed::value_variants().iter().filter_map(|&kind| section(kind, &assets));
             say(&sections.collect::<Vec<_>>().join("\n"))
         }
     }
 }
 
-fn section(kind: Listed, assets: &Assets) -> String {
+/// All of a kind under its heading; `None` if a kind that seldom exists does not.
+fn section(kind: Listed, assets: &Assets) -> Option<String> {
     let heading = kind.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned());
     let entries = entries(kind, assets);
-    let body = if entries.is_empty() { "  none\n".to_owned() } else { lines(&entries, "  ") };
-    format!("{heading}:\n{body}")
+    let body = match entries.is_empty() {
+        true if kind.is_rare() => return None,
+        true => "  none\n".to_owned(),
+        false => lines(&entries, "  "),
+    };
+    Some(format!("{heading}:\n{body}"))
 }
 
 /// Name and description of each thing of a kind.
@@ -78,6 +98,9 @@ fn entries(kind: Listed, assets: &Assets) -> Vec<(String, String)> {
         Listed::Tasks => TASKS.iter().map(|task| (task.name.to_owned(), task.summary.to_owned())).collect(),
         Listed::Demonstrations => describe(AssetKind::Demonstration, demonstration),
         Listed::Skills => describe(AssetKind::Skills, skills),
+        Listed::Foods => describe(AssetKind::Food, food),
+        Listed::Knives => describe(AssetKind::Knife, knife),
+        Listed::Containers => describe(AssetKind::Container, described),
     }
 }
 
@@ -89,7 +112,17 @@ fn scenarios(assets: &Assets) -> Vec<(String, String)> {
 }
 
 fn tool(file: &Path) -> String {
-    tool_description(file).unwrap_or_else(|problems| first_line(problems.first()))
+    asset_description(file, |tool: skills::tool::Tool| tool.description)
+        .unwrap_or_else(|problems| first_line(problems.first()))
+}
+
+fn food(file: &Path) -> String {
+    asset_description(file, |food: FoodFile| food.description).unwrap_or_else(|problems| first_line(problems.first()))
+}
+
+fn knife(file: &Path) -> String {
+    asset_description(file, |knife: KnifeFile| knife.description)
+        .unwrap_or_else(|problems| first_line(problems.first()))
 }
 
 fn robot(file: &Path) -> String {
@@ -109,6 +142,10 @@ fn demonstration(file: &Path) -> String {
 
 fn skills(file: &Path) -> String {
     skills_description(file).unwrap_or_else(|problems| first_line(problems.first()))
+}
+
+fn described(file: &Path) -> String {
+    stated_description(file).unwrap_or_else(|problem| first_line(Some(&problem)))
 }
 
 fn first_line(problem: Option<&crate::diagnostic::Diagnostic>) -> String {

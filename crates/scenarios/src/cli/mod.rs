@@ -2,6 +2,7 @@
 
 mod check;
 mod demonstrate;
+mod gains;
 mod learn;
 mod list;
 mod observe;
@@ -63,6 +64,7 @@ Examples:
   wield run scenarios/push_stick.toml --trials 20  seeds 1 to 20 in parallel, with the success rate
   wield demonstrate scenarios/push_stick.toml      only what the synthetic human shows, as CSV files
   wield reproduce                                  every figure, table and claim of the paper, with a verdict
+  wield gains                                      how closely the Panda follows under several gains
 
 Exit codes:
   0  success
@@ -102,6 +104,9 @@ enum Verb {
     /// Compute the paper's figures, tables and claims anew, and say what came out
     #[command(after_long_help = reproduce::AFTER_HELP)]
     Reproduce(reproduce::ReproduceArguments),
+    /// Measure how closely the Panda carries its hand under several gains and wrong models
+    #[command(after_long_help = gains::AFTER_HELP)]
+    Gains(gains::GainsArguments),
     /// Check scenario files without running them
     Check(check::CheckArguments),
     /// List scenarios, tools, robots, tasks, demonstrations and skills
@@ -126,6 +131,7 @@ pub fn main() -> Exit {
         Verb::Demonstrate(demonstrate) => demonstrate::execute(&demonstrate, assets),
         Verb::Learn(learn) => learn::execute(&learn, assets),
         Verb::Reproduce(reproduce) => reproduce::execute(&reproduce, assets),
+        Verb::Gains(gains) => gains::execute(&gains, assets),
         Verb::Check(check) => check::execute(&check, assets),
         Verb::List(list) => list::execute(&list, assets),
     }

@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use sim::planar::Observer;
-
-use crate::pipeline::{Report, RunError};
+use crate::pipeline::{Onlooker, Report, RunError};
 use crate::scenario::ResolvedScenario;
 
 /// A run that was watched.
@@ -61,7 +59,7 @@ pub fn watch(
     destination: &Destination,
     scenario: &ResolvedScenario,
     seed: u64,
-    run: impl FnOnce(&mut dyn Observer) -> Result<Report, RunError>,
+    run: impl FnOnce(&mut dyn Onlooker) -> Result<Report, RunError>,
 ) -> Result<Watched, String> {
     use crate::recording::{Recorder, RecorderOptions};
     if *destination == Destination::default() {
@@ -85,7 +83,7 @@ pub fn watch(
     _: &Destination,
     _: &ResolvedScenario,
     _: u64,
-    run: impl FnOnce(&mut dyn Observer) -> Result<Report, RunError>,
+    run: impl FnOnce(&mut dyn Onlooker) -> Result<Report, RunError>,
 ) -> Result<Watched, String> {
     Ok(Watched { result: run(&mut ()), warnings: Vec::new(), serving: None })
 }

@@ -90,7 +90,7 @@ fn reproduce(arguments: &ReproduceArguments, scenario: &ResolvedScenario, out: &
             tell(&format!("  {done} of {of} runs"));
         }
     };
-    let study = Study::new(scenario, arguments.trials, &count);
+    let study = Study::new(scenario, arguments.trials, &count).map_err(|error| format!("reproduce: {error}"))?;
     let (mut parts, mut seconds) = (Vec::new(), Vec::new());
     for (index, item) in wanted.iter().enumerate() {
         tell(&format!("{} of {}: {}", index + 1, wanted.len(), item.title));
@@ -129,7 +129,7 @@ fn write_all(out: &Path, parts: &[(&Item, Part)]) -> io::Result<()> {
 /// Records the run with the scenario's seed.
 fn record(scenario: &ResolvedScenario, file: &Path) -> Result<(), String> {
     let destination = Destination { file: Some(file.to_owned()), ..Destination::default() };
-    let seed = scenario.scenario.scenario.seed;
+    let seed = scenario.header().seed;
     let watched =
         observe::watch(&destination, scenario, seed, |observer| pipeline::run(scenario, seed, observer, &|_, _| {}))?;
     watched.warnings.iter().for_each(|warning| say_aside(&format!("warning: {warning}")));

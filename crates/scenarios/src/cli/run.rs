@@ -104,7 +104,7 @@ struct Job<'a> {
 impl<'a> Job<'a> {
     fn new(arguments: &'a RunArguments, scenario: &'a ResolvedScenario, pipeline: Pipeline) -> Result<Self, String> {
         check_recording(arguments)?;
-        let first_seed = arguments.seed.unwrap_or(scenario.scenario.scenario.seed);
+        let first_seed = arguments.seed.unwrap_or(scenario.header().seed);
         if first_seed > LARGEST_SEED - u64::from(arguments.trials - 1) {
             return Err(format!(
                 "--trials {}: the last seed would be above {LARGEST_SEED}; lower --seed",

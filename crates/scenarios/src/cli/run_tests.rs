@@ -2,11 +2,9 @@
 
 use std::fs;
 
-use sim::planar::Observer;
-
 use super::*;
 use crate::outcome::{Limit, Measure, OUTCOME_SCHEMA, Outcome};
-use crate::pipeline::{Progress, Report, RunError};
+use crate::pipeline::{Onlooker, Progress, Report, RunError};
 use clap::Parser;
 
 #[derive(Parser)]
@@ -18,7 +16,7 @@ struct Line {
 fn pretended(
     scenario: &ResolvedScenario,
     seed: u64,
-    _: &mut dyn Observer,
+    _: &mut dyn Onlooker,
     _: Progress<'_>,
 ) -> Result<Report, RunError> {
     match seed {
@@ -61,7 +59,7 @@ fn a_run_leaves_its_outcome_and_a_scenario_that_repeats_it() {
     assert_eq!((outcome.seed, outcome.success), (7, true));
     let assets = crate::assets::Assets::at(concat!(env!("CARGO_MANIFEST_DIR"), "/../../assets"));
     let again = crate::scenario::load(&folder.join("scenario.toml"), &assets).unwrap();
-    assert_eq!(again.scenario.scenario.seed, 7);
+    assert_eq!(again.header().seed, 7);
 }
 
 #[test]

@@ -3,17 +3,15 @@
 use std::io;
 use std::path::Path;
 
-use sim::planar::Observer;
-
 use super::observe::{self, Destination, Serving, Watched};
 use super::panics;
 use crate::files::{remove_if_present, write_whole};
-use crate::pipeline::{Progress, Report, RunError};
+use crate::pipeline::{Onlooker, Progress, Report, RunError};
 use crate::report::json;
 use crate::scenario::ResolvedScenario;
 
 /// The pipeline, or what stands in for it in tests.
-pub type Pipeline = fn(&ResolvedScenario, u64, &mut dyn Observer, Progress<'_>) -> Result<Report, RunError>;
+pub type Pipeline = fn(&ResolvedScenario, u64, &mut dyn Onlooker, Progress<'_>) -> Result<Report, RunError>;
 
 /// Name of the result's file in a seed's folder.
 const OUTCOME: &str = "outcome.json";
@@ -82,9 +80,7 @@ pub fn run_seed(
 
 /// The scenario with every default written out and the seed of the run: a file that gives the same run again.
 pub fn resolved_text(scenario: &ResolvedScenario, seed: u64) -> Result<String, String> {
-    let mut resolved = scenario.scenario.clone();
-    resolved.scenario.seed = seed;
-    let body = toml::to_string(&resolved).map_err(|error| format!("write {SCENARIO}: {error}"))?;
+    let body = scenario.text(seed).map_err(|error| format!("write {SCENARIO}: {error}"))?;
     let head = format!(
         "# {} as it was run by wield {}, all defaults written out.\n",
         scenario.name,

@@ -66,11 +66,8 @@ impl Recorder {
     /// Sends what waits and the last sample, which seldom falls on a row.
     fn send_last_rows(&mut self) {
         if let Some(run) = &mut self.run {
-            if run.row.waits {
-                run.block.push(&mut run.row);
-            }
-            let limits = run.block.send_last(&self.stream, &run.row);
-            self.note("send the last row", limits);
+            let last = run.send_last(&self.stream);
+            self.note("send the last row", last);
         }
         self.hand_over();
     }

@@ -5,6 +5,7 @@
 //! sits behind a queue of bounded size, so that an absent, slow or dying viewer costs the run nothing but its picture.
 
 mod block;
+mod curves;
 mod error;
 mod events;
 mod file;
@@ -13,11 +14,13 @@ mod layout;
 mod live;
 mod moving;
 mod outlet;
+mod plane_layout;
 mod plots;
 mod row;
 mod scene;
 mod shapes;
 mod sinks;
+mod space;
 mod store;
 mod style;
 mod summary;
@@ -27,7 +30,7 @@ mod viewer;
 
 use std::path::PathBuf;
 
-use rerun::RecordingStream;
+use rerun::{RecordingStream, RecordingStreamResult};
 use sim::planar::{Event, Observer, Sample, SceneDescription};
 
 pub use error::RecordingError;
@@ -39,6 +42,7 @@ use self::events::Events;
 use self::file::PartialFile;
 use self::live::LiveHandle;
 use self::row::{Decimator, Row};
+use self::space::SpaceRun;
 use crate::scenario::ResolvedScenario;
 
 /// Name under which a viewer groups recordings and remembers layouts.
@@ -78,10 +82,40 @@ pub struct Recorder {
 }
 
 /// What is known once the scene was told.
-struct Run {
+enum Run {
+    /// A scene seen from above.
+    Plane(Box<PlaneRun>),
+    /// A scene in space.
+    Space(Box<SpaceRun>),
+}
+
+/// A planar run that is being recorded.
+struct PlaneRun {
     row: Row,
     decimator: Decimator,
     block: Block,
+}
+
+impl Run {
+    fn hand_over(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        match self {
+            Self::Plane(run) => run.block.hand_over(stream),
+            Self::Space(run) => run.hand_over(stream),
+        }
+    }
+
+    /// Sends the last sample, which seldom falls on a row, and what is known only at the end.
+    fn send_last(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
+        match self {
+            Self::Plane(run) => {
+                if run.row.waits {
+                    run.block.push(&mut run.row);
+                }
+                run.block.send_last(stream, &run.row)
+            }
+            Self::Space(run) => run.send_last(stream),
+        }
+    }
 }
 
 impl Recorder {
@@ -99,8 +133,8 @@ impl Recorder {
             block_rows: if opened.live.is_empty() { FILE_BLOCK_ROWS } else { LIVE_BLOCK_ROWS },
             live: opened.live,
             served: opened.served,
-            rate_hz: scenario.scenario.recording.rate_hz,
-            tolerance_m: scenario.scenario.limits.goal_error_m,
+            rate_hz: scenario.recording().rate_hz,
+            tolerance_m: scenario.goal_tolerance_m().unwrap_or(0.0),
             run: None,
             events: Events::default(),
             warnings: opened.warnings,
@@ -129,7 +163,7 @@ impl Recorder {
     /// Hands over all rows that wait.
     fn hand_over(&mut self) {
         let Some(run) = &mut self.run else { return };
-        let sent = run.block.hand_over(&self.stream);
+        let sent = run.hand_over(&self.stream);
         let told = self.events.hand_over(&self.stream);
         self.note("send a block of rows", sent);
         self.note("send events", told);
@@ -139,22 +173,22 @@ impl Recorder {
 impl Observer for Recorder {
     fn begin(&mut self, scene: &SceneDescription) {
         self.events.control_period_s = scene.control_period_s;
-        let run = Run {
+        let run = PlaneRun {
             row: Row::new(scene),
             decimator: Decimator::new(self.rate_hz, scene.control_period_s),
             block: Block::new(scene, self.block_rows),
         };
         let drawn = scene::send(&self.stream, scene, self.tolerance_m);
         let named = run.block.send_static(&self.stream);
-        let laid_out = layout::send(&self.stream, scene);
-        self.run = Some(run);
+        let laid_out = layout::send(&self.stream, |layout| plane_layout::write(layout, scene));
+        self.run = Some(Run::Plane(Box::new(run)));
         self.note("draw the scene", drawn);
         self.note("name the series", named);
         self.note("send the layout", laid_out);
     }
 
     fn sample(&mut self, sample: &Sample<'_>) {
-        let Some(run) = &mut self.run else { return };
+        let Some(Run::Plane(run)) = &mut self.run else { return };
         run.row.copy(sample);
         if run.decimator.wants(sample.step) {
             run.block.push(&mut run.row);

@@ -1,38 +1,29 @@
-//! Curves over time: distances, tracking errors, forces, joints. A curve is one line of the list below and one value.
+//! Curves of a planar run: distances, tracking errors, forces, joints. A curve is one line of the list below and one value.
 
 use nalgebra::{Isometry2, Point2};
-use rerun::{RecordingStream, RecordingStreamResult, Scalars, SeriesLines, TimeColumn};
+use rerun::{RecordingStream, RecordingStreamResult};
 use sim::planar::SceneDescription;
 
+use super::curves::{Curves, JointRow, send_torque_limits};
 use super::row::Row;
-use super::style::{self, Rgba};
-use super::times::{SIM_TIME, STEP, Times};
+use super::style;
+use super::times::Times;
 
 const MM_PER_M: f64 = 1e3;
-const MRAD_PER_RAD: f64 = 1e3;
-
-/// One curve: where it lies, how its legend reads.
-struct Series {
-    path: String,
-    name: String,
-    color: Rgba,
-    values: Vec<f64>,
-}
 
 /// All curves of a run.
 pub(super) struct Plots {
-    series: Vec<Series>,
-    joints: usize,
+    curves: Curves,
     goal: Point2<f64>,
+    joints: Vec<String>,
     torque_limits_nm: Vec<f64>,
-    joint_names: Vec<String>,
 }
 
 impl Plots {
     /// Room for `rows` rows of `scene`.
     pub(super) fn new(scene: &SceneDescription, rows: usize) -> Self {
-        let arm = &scene.arm;
-        let single = [
+        let mut curves = Curves::with_capacity(rows);
+        for (path, name, color) in [
             ("distance/goal", "object to goal [mm]", style::GOAL),
             ("distance/plan", "object to its plan [mm]", style::OBJECT),
             ("tracking/tool", "tool to its reference [mm]", style::TOOL),
@@ -41,25 +32,15 @@ impl Plots {
             ("force/obstacles", "obstacles, peak [N]", style::OBSTACLE),
             ("state/contact", "tool touches object [0/1]", style::FORCE),
             ("state/action", "action [number]", style::TOOL),
-        ];
-        let mut series: Vec<_> =
-            single.iter().map(|(path, name, color)| Series::new(path, (*name).into(), *color, rows)).collect();
-        for (group, quantity) in [
-            ("joint_error", "error [mrad]"),
-            ("joint_position", "position [rad]"),
-            ("joint_velocity", "velocity [rad/s]"),
-            ("joint_torque", "torque [N m]"),
         ] {
-            series.extend(arm.joints.iter().zip(style::JOINTS.iter().cycle()).map(|(joint, color)| {
-                Series::new(&format!("{group}/{}", part(joint)), format!("{joint} {quantity}"), *color, rows)
-            }));
+            curves.add(path, name, color);
         }
+        curves.add_joints(&scene.arm.joints);
         Self {
-            series,
-            joints: arm.joints.len(),
+            curves,
             goal: scene.goal_world,
-            torque_limits_nm: arm.torque_limits_nm.clone(),
-            joint_names: arm.joints.clone(),
+            joints: scene.arm.joints.clone(),
+            torque_limits_nm: scene.arm.torque_limits_nm.clone(),
         }
     }
 
@@ -76,72 +57,34 @@ impl Plots {
             f64::from(u8::from(row.push_peak_n > 0.0)),
             row.phase as f64 + 1.0,
         ];
-        let joints = self.joints;
-        let padded = |values: &[f64], joint: usize| values.get(joint).copied().unwrap_or(f64::NAN);
-        let errors =
-            (0..joints).map(|joint| (padded(&row.q_reference_rad, joint) - padded(&row.q_rad, joint)) * MRAD_PER_RAD);
-        let groups = [&row.q_rad, &row.dq_rad_per_s, &row.torque_nm];
-        let others = groups.iter().flat_map(|values| (0..joints).map(|joint| padded(values, joint)));
-        for (series, value) in self.series.iter_mut().zip(single.into_iter().chain(errors).chain(others)) {
-            series.values.push(value);
-        }
+        let joints = JointRow {
+            q_reference_rad: &row.q_reference_rad,
+            q_rad: &row.q_rad,
+            dq_rad_per_s: &row.dq_rad_per_s,
+            torque_nm: &row.torque_nm,
+        };
+        self.curves.push(single.into_iter().chain(joints.values(self.joints.len())));
     }
 
     /// Sends names and colors.
     pub(super) fn send_static(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
-        for series in &self.series {
-            let line =
-                SeriesLines::new().with_names([series.name.as_str()]).with_colors([series.color]).with_widths([1.5]);
-            stream.log_static(series.path.as_str(), &line)?;
-        }
-        Ok(())
+        self.curves.send_static(stream)
     }
 
     /// Hands all rows to the stream.
     pub(super) fn send(&self, stream: &RecordingStream, times: &Times) -> RecordingStreamResult<()> {
-        for series in &self.series {
-            let values = Scalars::new(series.values.iter().copied());
-            stream.send_columns(series.path.as_str(), times.columns(), values.columns_of_unit_batches()?)?;
-        }
-        Ok(())
+        self.curves.send(stream, times)
     }
 
     /// Sends the torque limits as level lines from the start to the last row.
     pub(super) fn send_limits(&self, stream: &RecordingStream, last: &Row) -> RecordingStreamResult<()> {
-        let limits = self.joint_names.iter().zip(&self.torque_limits_nm).zip(style::JOINTS.iter().cycle());
-        for ((joint, limit), color) in limits.filter(|((_, limit), _)| limit.is_finite()) {
-            let path = format!("/plots/joint_torque_limit/{}", part(joint));
-            let line = SeriesLines::new()
-                .with_names([format!("{joint} limit [N m]"), format!("{joint} limit, negative [N m]")])
-                .with_colors([*color, *color])
-                .with_widths([0.75, 0.75]);
-            stream.log_static(path.as_str(), &line)?;
-            let step = i64::try_from(last.step).unwrap_or(i64::MAX);
-            let times = [
-                TimeColumn::new_sequence(STEP, [0, step]),
-                TimeColumn::new_duration_secs(SIM_TIME, [0.0, last.time_s]),
-            ];
-            let values = Scalars::new([*limit, -limit, *limit, -limit]).columns([2, 2])?;
-            stream.send_columns(path.as_str(), times, values)?;
-        }
-        Ok(())
+        send_torque_limits(stream, &self.joints, &self.torque_limits_nm, last.step, last.time_s)
     }
 
     /// Forgets all rows and keeps their room.
     pub(super) fn clear(&mut self) {
-        self.series.iter_mut().for_each(|series| series.values.clear());
+        self.curves.clear();
     }
-}
-
-impl Series {
-    fn new(path: &str, name: String, color: Rgba, rows: usize) -> Self {
-        Self { path: format!("/plots/{path}"), name, color, values: Vec::with_capacity(rows) }
-    }
-}
-
-/// A name as one part of an entity path.
-pub(super) fn part(name: &str) -> String {
-    rerun::EntityPath::from_single_string(name).to_string().trim_start_matches('/').to_owned()
 }
 
 fn distance_m(first: &Isometry2<f64>, second: &Isometry2<f64>) -> f64 {

@@ -9,7 +9,7 @@ use rerun::{LineStrips2D, Points2D, RecordingStream, RecordingStreamResult, Tran
 use sim::planar::{MapBounds, SceneDescription};
 use skills::outline::PlacedOutline;
 
-use super::plots::part;
+use super::curves::part;
 use super::shapes::{self, Strip, plain};
 use super::style::{self, Rgba, on_screen, order};
 

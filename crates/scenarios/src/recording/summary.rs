@@ -22,7 +22,7 @@ pub(super) fn send_task(stream: &RecordingStream, scenario: &ResolvedScenario, s
     stream.log_static(OUTCOME, &TextDocument::from_markdown("# No outcome\n\nThe run has not come to its end."))?;
     let run = AnyValues::default()
         .with_component_from_data("scenario", text(&scenario.name))
-        .with_component_from_data("task", text(scenario.scenario.task.kind()))
+        .with_component_from_data("task", text(scenario.kind()))
         .with_component_from_data("seed", Arc::new(UInt64Array::from(vec![seed])))
         .with_component_from_data("version", text(env!("CARGO_PKG_VERSION")));
     stream.send_property("run", &run)
@@ -56,7 +56,7 @@ fn text(words: &str) -> ArrayRef {
 }
 
 fn task_text(scenario: &ResolvedScenario, seed: u64) -> String {
-    let header = &scenario.scenario.scenario;
+    let header = scenario.header();
     format!(
         "# {}\n\n{}\n\nScenario `{}`, seed {seed}.\n\n```toml\n{}\n```\n",
         header.title,

@@ -28,9 +28,8 @@ fn objects() -> [(&'static str, Outline); 3] {
 
 /// Takes the same demonstrations to the same flips, without and with the division of Prop. 2.
 pub fn figure_9(study: &Study<'_>) -> Result<Part, StudyError> {
-    let tool = &study.scenario.tool;
-    let skills =
-        ShownFlips::of(study)?.learn(&study.scenario.demonstration_tool, &study.scenario.scenario.object.shape)?;
+    let tool = &study.push.tool;
+    let skills = ShownFlips::of(study)?.learn(&study.push.demonstration_tool, &study.push.scenario.object.shape)?;
     let mut rows = String::from(
         "| object | angles on the object | surfaces | classic: depth (mm) | TF: clearance (mm) | classic: range (mm) | TF, k2 = 1 \
          (mm) | TF, smallest k2 (mm) |\n|---|---|---|---|---|---|---|---|\n",

@@ -20,7 +20,7 @@ const STEPS: f64 = 400.0;
 
 /// The object's paths, waits cut out, each over one unit of time along its length or its clock.
 fn object_paths(study: &Study<'_>) -> Result<Vec<Trajectory>, StudyError> {
-    let scenario = study.scenario;
+    let scenario = study.push;
     let path = |demonstration: &Demonstration| {
         let aligned = demonstration.aligned();
         let fragments = pushes(&aligned, &scenario.demonstration_tool, &scenario.scenario.object.shape);
@@ -53,7 +53,7 @@ fn evenly(path: &[Point2<f64>]) -> Vec<Point2<f64>> {
 /// Learns one primitive from all demonstrations and counts corners.
 pub fn figure_2(study: &Study<'_>) -> Result<Part, StudyError> {
     let shown = object_paths(study)?;
-    let primitive = study.scenario.scenario.primitive.learn(&shown)?;
+    let primitive = study.push.scenario.primitive.learn(&shown)?;
     let mean = |ends: Vec<DVector<f64>>| ends.iter().sum::<DVector<f64>>() / ends.len().max(1) as f64;
     let start = mean(shown.iter().map(Trajectory::start).collect());
     let goal = mean(shown.iter().map(Trajectory::end).collect());
@@ -72,7 +72,7 @@ pub fn figure_2(study: &Study<'_>) -> Result<Part, StudyError> {
     };
     if let Some(first) = shown.first() {
         let pose = nalgebra::Isometry2::translation(first.start()[0], first.start()[1]);
-        chart.shape("object at the start", OBJECT, vec![outline_cm(&study.scenario.scenario.object.shape, &pose)]);
+        chart.shape("object at the start", OBJECT, vec![outline_cm(&study.push.scenario.object.shape, &pose)]);
     }
     for (index, path) in shown.iter().enumerate() {
         let path = points(path);

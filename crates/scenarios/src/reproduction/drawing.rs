@@ -6,7 +6,7 @@ use skills::outline::Outline;
 use skills::tool::Tool;
 
 use super::plot::{BLACK, Chart, DASHED, GRAY, LIGHT, RED, Style, fill, line, outlined};
-use crate::scenario::Scenario;
+use crate::tasks::push::PushScenario;
 
 /// Labels of the axes of a map.
 pub const X_CM: &str = "x (cm)";
@@ -47,7 +47,7 @@ pub fn outline_cm(outline: &Outline, pose: &Isometry2<f64>) -> Vec<[f64; 2]> {
 }
 
 /// A chart of the whole map with its obstacles, and the distance from them at which the object's center stays.
-pub fn table(title: &str, scenario: &Scenario, center_margin_m: f64) -> Chart {
+pub fn table(title: &str, scenario: &PushScenario, center_margin_m: f64) -> Chart {
     let mut chart = Chart::map(title, X_CM, Y_CM);
     let (min, max) = (scenario.world.map.min_m, scenario.world.map.max_m);
     chart.limits(

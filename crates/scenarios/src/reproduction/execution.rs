@@ -66,7 +66,7 @@ fn tool_points(action: &Action) -> Vec<Point2<f64>> {
 
 /// The tool's planned path, by kind of action.
 fn paths_chart(study: &Study<'_>, plan: &Plan, title: &str) -> Chart {
-    let scenario = &study.scenario.scenario;
+    let scenario = &study.push.scenario;
     let mut chart = table(title, scenario, SAFE_MARGIN_M + scenario.object.shape.radius_m());
     chart.limits([-10.0, 13.5], [-1.0, 18.6]);
     let last = plan.actions().len().saturating_sub(1);
@@ -85,7 +85,7 @@ fn paths_chart(study: &Study<'_>, plan: &Plan, title: &str) -> Chart {
 
 /// The tool at begin and end of each push.
 fn planned_chart(study: &Study<'_>, plan: &Plan, title: &str) -> Chart {
-    let scenario = &study.scenario.scenario;
+    let scenario = &study.push.scenario;
     let mut chart = table(title, scenario, 0.0);
     chart.limits([-10.0, 13.5], [-1.0, 18.6]);
     let colors = [PURPLE, SKY, ORANGE];
@@ -96,7 +96,7 @@ fn planned_chart(study: &Study<'_>, plan: &Plan, title: &str) -> Chart {
         let name = format!("tool in push {}", index + 1);
         for (tool, object) in [(action.tool.start(), action.object.start()), (action.tool.end(), action.object.end())] {
             chart.shape("object", OBJECT, vec![outline_cm(&scenario.object.shape, &object.pose())]);
-            chart.shape(name.as_str(), tool_style(color), tool_cm(&study.scenario.tool, &tool.pose()));
+            chart.shape(name.as_str(), tool_style(color), tool_cm(&study.push.tool, &tool.pose()));
             number += 1;
             words.push((super::drawing::cm(&tool.point()), number.to_string(), color));
         }

@@ -37,7 +37,7 @@ pub struct FlipSkills {
 impl ShownFlips {
     /// The ways between the two pushes of all demonstrations.
     pub fn of(study: &Study<'_>) -> Result<Self, StudyError> {
-        let scenario = study.scenario;
+        let scenario = study.push;
         let mut shown = Self { tool_world: Vec::new(), object_world: Vec::new() };
         for demonstration in &study.run()?.demonstrations {
             let aligned = Demonstration::aligned(demonstration);

@@ -23,9 +23,9 @@ pub fn whole() -> FlipOptions {
 
 /// Learns, generalizes, draws.
 pub fn figure_6(study: &Study<'_>) -> Result<Part, StudyError> {
-    let (tool, small) = (&study.scenario.tool, &study.scenario.scenario.object.shape);
+    let (tool, small) = (&study.push.tool, &study.push.scenario.object.shape);
     let shown = ShownFlips::of(study)?;
-    let skills = shown.learn(&study.scenario.demonstration_tool, small)?;
+    let skills = shown.learn(&study.push.demonstration_tool, small)?;
     let (charts, [arched_m, straight_m], depth_m) = virtual_movements(study, &skills)?;
 
     let object = Outline::Disc { radius_m: FIGURE_RADIUS_M };
@@ -148,7 +148,7 @@ pub fn stages(
 
 /// Charts of both movements, how far each leads from the start, and how deep the straight one cuts in, m.
 fn virtual_movements(study: &Study<'_>, skills: &FlipSkills) -> Result<([Chart; 2], [f64; 2], f64), StudyError> {
-    let (tool, object) = (&study.scenario.tool, &study.scenario.scenario.object.shape);
+    let (tool, object) = (&study.push.tool, &study.push.scenario.object.shape);
     let Some([from, to]) = tool.surfaces.first_chunk::<2>() else {
         return Err(StudyError::Run(format!("the tool `{}` has fewer than two surfaces", tool.name)));
     };

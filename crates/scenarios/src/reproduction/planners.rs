@@ -47,7 +47,7 @@ pub struct Map<'a> {
 impl<'a> Map<'a> {
     /// The map of the scenario, less the object's radius and the safe margin.
     pub fn new(study: &'a Study<'a>) -> Result<Self, StudyError> {
-        let scenario = &study.scenario.scenario;
+        let scenario = &study.push.scenario;
         let radius_m = scenario.object.shape.radius_m();
         let obstacles: Vec<PlacedOutline> = scenario.world.obstacles.iter().map(|obstacle| obstacle.placed()).collect();
         let (min, max) = (scenario.world.map.min_m, scenario.world.map.max_m);
@@ -63,8 +63,8 @@ impl<'a> Map<'a> {
     /// The tool level along a path of the object.
     pub fn tool_level(&self, config: &TwoLevelConfig, path: &[Point2<f64>]) -> Result<TwoLevelPlan, StudyError> {
         let problem = TwoLevelProblem {
-            tool: &self.study.scenario.tool,
-            object_radius_m: self.study.scenario.scenario.object.shape.radius_m(),
+            tool: &self.study.push.tool,
+            object_radius_m: self.study.push.scenario.object.shape.radius_m(),
             obstacles: &self.obstacles,
             workspace_m: Some(WORKSPACE_M),
         };

@@ -47,7 +47,7 @@ pub fn draw(study: &Study<'_>, map: &Map<'_>, example: &Example<'_>) -> Result<S
 }
 
 fn chart(study: &Study<'_>, map: &Map<'_>, title: &str) -> Chart {
-    let scenario = &study.scenario.scenario;
+    let scenario = &study.push.scenario;
     let radius_m = scenario.object.shape.radius_m();
     let mut chart = table(title, scenario, SAFE_MARGIN_M + radius_m);
     chart.limits([-10.0, 12.0], [-0.6, 18.6]);
@@ -58,11 +58,11 @@ fn chart(study: &Study<'_>, map: &Map<'_>, title: &str) -> Chart {
 
 fn tool_chart(study: &Study<'_>, map: &Map<'_>, title: &str, plan: &TwoLevelPlan, example: &Example<'_>) -> Chart {
     let mut chart = chart(study, map, title);
-    let name = |surface: usize| study.scenario.tool.surfaces.get(surface).map_or("?", |surface| surface.name.as_str());
+    let name = |surface: usize| study.push.tool.surfaces.get(surface).map_or("?", |surface| surface.name.as_str());
     let pushable = plan.segments.iter().filter(|segment| segment.obstruction.is_none());
     for segment in pushable.step_by(DRAWN) {
         let style = tool_style(SURFACES[segment.hold.surface % SURFACES.len()]).faint(0.45);
-        chart.shape(None, style, tool_cm(&study.scenario.tool, &segment.hold.world_from_tool_start));
+        chart.shape(None, style, tool_cm(&study.push.tool, &segment.hold.world_from_tool_start));
     }
     for segment in &plan.segments {
         let ends = vec![cm(&segment.from_world), cm(&segment.to_world)];

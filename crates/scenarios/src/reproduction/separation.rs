@@ -94,7 +94,7 @@ pub fn figure_5_skill(study: &Study<'_>) -> Result<Part, StudyError> {
 /// far the map moves it, m.
 fn section_charts(study: &Study<'_>) -> Result<(Vec<Chart>, [f64; 2]), StudyError> {
     let run = study.run()?;
-    let scenario = study.scenario;
+    let scenario = study.push;
     let tool = &scenario.demonstration_tool;
     let Some(demonstration) = run.demonstrations.first() else { return Ok((Vec::new(), [0.0; 2])) };
     let aligned = demonstration.aligned();

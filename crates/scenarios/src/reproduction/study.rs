@@ -9,7 +9,8 @@ use skills::tool_flipping::FlipError;
 use skills::transfer::Transfer;
 
 use crate::scenario::ResolvedScenario;
-use crate::tasks::{CarriedOut, StageError, carry_out};
+use crate::tasks::push::{CarriedOut, ExecutionMode, ResolvedPush, carry_out};
+use crate::tasks::{ResolvedTask, StageError};
 
 /// Why an item could not be reproduced.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +49,8 @@ pub type Count<'a> = &'a (dyn Fn(usize, usize) + Sync);
 pub struct Study<'a> {
     /// The scenario: the paper's first experiment with its second tool.
     pub scenario: &'a ResolvedScenario,
+    /// What is particular to a push in it.
+    pub push: &'a ResolvedPush,
     /// Seeds of each experiment that is repeated.
     pub trials: u32,
     /// Told of the repetitions.
@@ -57,14 +60,28 @@ pub struct Study<'a> {
 
 impl<'a> Study<'a> {
     /// A study of a scenario that transfers a skill; nothing is run yet.
-    pub fn new(scenario: &'a ResolvedScenario, trials: u32, count: Count<'a>) -> Self {
-        Self { scenario, trials, count, run: OnceLock::new() }
+    ///
+    /// # Errors
+    /// If the scenario is no push.
+    pub fn new(scenario: &'a ResolvedScenario, trials: u32, count: Count<'a>) -> Result<Self, StudyError> {
+        let push = scenario.as_push().ok_or_else(|| {
+            let (name, kind) = (&scenario.name, scenario.kind());
+            StudyError::Run(format!("{name} is a task of the kind `{kind}`; expected a push: [task.push]"))
+        })?;
+        Ok(Self { scenario, push, trials, count, run: OnceLock::new() })
+    }
+
+    /// The scenario with its plan carried out in another way.
+    pub fn executed(&self, mode: ExecutionMode) -> ResolvedScenario {
+        let mut push = self.push.clone();
+        push.scenario.execution.mode = mode;
+        ResolvedScenario { task: ResolvedTask::Push(Box::new(push)), ..self.scenario.clone() }
     }
 
     /// The run with the scenario's seed; made once.
     pub fn run(&self) -> Result<&CarriedOut, StudyError> {
         if self.run.get().is_none() {
-            let run = carry_out(self.scenario, self.scenario.scenario.scenario.seed)?;
+            let run = carry_out(self.scenario, self.push, self.scenario.header().seed)?;
             return Ok(self.run.get_or_init(|| run));
         }
         self.run.get().ok_or_else(|| StudyError::Run("the run was lost".into()))

@@ -9,8 +9,7 @@ use super::plot::{BLUE, GREEN, RED, figure, fill, line};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::measures::path_length_m;
-use crate::scenario::ResolvedScenario;
-use crate::tasks::TaskConfig;
+use crate::tasks::push::ResolvedPush;
 
 /// The paper's safe margin between object and obstacle, m (§IV.A.1).
 pub const SAFE_MARGIN_M: f64 = 0.015;
@@ -20,7 +19,7 @@ const MOST_SLIP_MM: f64 = 1.0;
 const LOOKS: u32 = 200;
 
 /// Least distance of the object from an obstacle along a path of its center, m.
-pub fn clearance_m(scenario: &ResolvedScenario, path: &[Point2<f64>]) -> f64 {
+pub fn clearance_m(scenario: &ResolvedPush, path: &[Point2<f64>]) -> f64 {
     let object = &scenario.scenario.object.shape;
     let at = |place: Point2<f64>| {
         let here = Isometry2::translation(place.x, place.y);
@@ -44,14 +43,13 @@ pub fn corners(transfer: &Transfer) -> Vec<Point2<f64>> {
 
 /// Start and goal of the task.
 pub fn ends(study: &Study<'_>) -> (Point2<f64>, Point2<f64>) {
-    match &study.scenario.scenario.task {
-        TaskConfig::Push(push) => (push.start_m.into(), push.goal_m.into()),
-    }
+    let push = study.push.scenario.push();
+    (push.start_m.into(), push.goal_m.into())
 }
 
 /// Draws the three paths and measures what each keeps.
 pub fn figure_5_transfer(study: &Study<'_>) -> Result<Part, StudyError> {
-    let (scenario, transfer) = (study.scenario, study.transfer()?);
+    let (scenario, transfer) = (study.push, study.transfer()?);
     let object = &scenario.scenario.object.shape;
     let (start, goal) = ends(study);
     let slip = study.run()?.outcome.measures.iter().find(|measure| measure.name == "slip_mm");
@@ -111,7 +109,7 @@ pub fn figure_5_transfer(study: &Study<'_>) -> Result<Part, StudyError> {
 }
 
 fn verdicts(
-    scenario: &ResolvedScenario,
+    scenario: &ResolvedPush,
     transfer: &Transfer,
     [free, kept, phases]: [&Vec<Point2<f64>>; 3],
     (start, goal): (Point2<f64>, Point2<f64>),
@@ -175,7 +173,7 @@ fn verdicts(
 }
 
 /// Whether a phase leads along the normal of its surface.
-fn along_normal(scenario: &ResolvedScenario, phase: &skills::transfer::Phase) -> bool {
+fn along_normal(scenario: &ResolvedPush, phase: &skills::transfer::Phase) -> bool {
     let Some(surface) = scenario.tool.surfaces.get(phase.hold.surface) else { return false };
     let normal = phase.hold.center_from_tool.rotation * surface.contact_at(phase.hold.place_m).normal.into_inner();
     normal.angle(&(phase.to_world - phase.from_world)) < 0.01

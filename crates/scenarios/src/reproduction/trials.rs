@@ -8,7 +8,8 @@ use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::outcome::Outcome;
 use crate::pipeline;
-use crate::scenario::{ExecutionMode, ResolvedScenario};
+use crate::scenario::ResolvedScenario;
+use crate::tasks::push::ExecutionMode;
 use crate::trials::wilson;
 
 /// Ways in which a plan is carried out.
@@ -20,7 +21,7 @@ const MEASURES: [&str; 4] = ["goal_error_mm", "object_clearance_mm", "tool_clear
 /// Runs the seeds in both ways.
 pub fn trials(study: &Study<'_>) -> Result<Part, StudyError> {
     let (trials, done) = (study.trials as usize, AtomicUsize::new(0));
-    let limit_mm = 1e3 * study.scenario.scenario.limits.goal_error_m;
+    let limit_mm = 1e3 * study.push.scenario.limits.goal_error_m;
     let mut chart =
         Chart::graph("Distance to the goal", "distance of the object from its goal (mm)", "share of seeds (%)");
     let mut rows = String::from(
@@ -29,8 +30,7 @@ pub fn trials(study: &Study<'_>) -> Result<Part, StudyError> {
     let mut verdicts = Vec::new();
     let mut farthest_mm = 0.0;
     for ((name, mode), style) in MODES.into_iter().zip([line(BLUE, 2.2), line(ORANGE, 2.2).dashed("9 3")]) {
-        let mut scenario = study.scenario.clone();
-        scenario.scenario.execution.mode = mode;
+        let scenario = study.executed(mode);
         let outcomes = outcomes(&scenario, trials, &|| {
             (study.count)(done.fetch_add(1, Ordering::Relaxed) + 1, MODES.len() * trials);
         })?;

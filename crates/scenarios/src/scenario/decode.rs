@@ -51,7 +51,8 @@ impl Flaw {
         Self { reversed_path: Vec::new(), kind }
     }
 
-    fn inside(mut self, step: &str) -> Self {
+    /// The same flaw, seen from the table or list that has its place under `step`.
+    pub fn inside(mut self, step: &str) -> Self {
         self.reversed_path.push(step.to_owned());
         self
     }

@@ -23,11 +23,8 @@ pub(crate) struct Draft<T> {
 
 /// Reads a struct; `example` is a valid document of the same type, for help on missing keys.
 pub(crate) fn read<T: DeserializeOwned>(source: &Source, example: &Source) -> Draft<T> {
-    if source.text.trim_start_matches('\u{feff}').trim().is_empty() {
-        let empty = Diagnostic::of_file(&source.file, "the file is empty")
-            .expected("TOML")
-            .help(["start from a copy of a shipped file: `wield list` names them".to_owned()]);
-        return Draft { value: None, tree: None, problems: vec![empty] };
+    if let Some(problem) = empty(source) {
+        return Draft { value: None, tree: None, problems: vec![problem] };
     }
     match Node::parse(source) {
         Err(problem) => Draft { value: None, tree: None, problems: vec![*problem] },
@@ -38,6 +35,15 @@ pub(crate) fn read<T: DeserializeOwned>(source: &Source, example: &Source) -> Dr
             Draft { value, problems, tree: Some(tree) }
         }
     }
+}
+
+/// The problem with a file in which nothing stands.
+pub(crate) fn empty(source: &Source) -> Option<Diagnostic> {
+    source.text.trim_start_matches('\u{feff}').trim().is_empty().then(|| {
+        Diagnostic::of_file(&source.file, "the file is empty")
+            .expected("TOML")
+            .help(["start from a copy of a shipped file: `wield list` names them".to_owned()])
+    })
 }
 
 fn read_tree<T: DeserializeOwned>(context: Context<'_>, mut rest: Node) -> (Option<T>, Vec<Diagnostic>) {

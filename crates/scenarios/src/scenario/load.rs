@@ -1,19 +1,27 @@
 //! Loading: from a scenario file to a checked scenario with everything that it names.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
-use skills::demonstration::Demonstration;
-
-use super::check::{check_arm, check_places, check_surfaces};
-use super::document::{Node, path};
-use super::draft::{Draft, read};
+use super::check::check_arm;
+use super::decode::{Flaw, decode};
+use super::document::{Node, Value, path};
+use super::draft::{Draft, empty, read};
 use super::explain::Context;
 use super::named::{Reader, field_problem};
 use super::parts::name_of_file;
 use super::source::Source;
-use super::{DemonstrationsConfig, ResolvedScenario, Scenario, SkillsFile};
+use super::{ReadScenario, ResolvedScenario};
 use crate::assets::Assets;
 use crate::diagnostic::Diagnostic;
+use crate::suggest::nearest;
+use crate::tasks::{AnyKind, TASKS, TaskKind};
+
+/// The table that says what is to be done; its only key names the kind.
+const TASK: &str = "task";
+
+/// Reads a scenario of one kind of task.
+pub(crate) type Loader = fn(&Source, &Source, &Assets) -> Result<ResolvedScenario, Vec<Diagnostic>>;
 
 /// Reads and checks a scenario file and everything that it names.
 ///
@@ -27,7 +35,7 @@ pub fn load(file: &Path, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagno
 /// Remarks on a scenario that can be used: oddities of its robot's description.
 #[must_use]
 pub fn notes(resolved: &ResolvedScenario) -> Vec<String> {
-    let robot = &resolved.scenario.robot.asset;
+    let robot = resolved.file().arm().asset;
     resolved.arm.warnings().iter().map(|warning| format!("robot `{robot}`: {warning}")).collect()
 }
 
@@ -36,89 +44,69 @@ pub fn notes(resolved: &ResolvedScenario) -> Vec<String> {
 pub fn title(file: &Path) -> Option<String> {
     let source = Source::read(file).ok()?;
     match &Node::parse(&source).ok()?.at(&path("scenario.title"))?.value {
-        super::document::Value::Text(title) => Some(title.clone()),
+        Value::Text(title) => Some(title.clone()),
         _ => None,
     }
 }
 
-/// A scenario file that shows how keys are written.
-fn example() -> Source {
-    let text = include_str!("../../../../scenarios/push_stick.toml");
-    Source { file: "scenarios/push_stick.toml".into(), text: text.into() }
+/// Looks up the kind of the task, whose scenarios have a shape of their own, and reads the file as one of that kind.
+fn resolve(source: &Source, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    if let Some(problem) = empty(source) {
+        return Err(vec![problem]);
+    }
+    let tree = Node::parse(source).map_err(|problem| vec![*problem])?;
+    match kind_of(&tree) {
+        Ok(kind) => (kind.load)(source, &kind.example(), assets),
+        // without a kind there is nothing that the rest of the file could be compared with
+        Err(flaw) => {
+            let example = TASKS.first().map_or_else(|| source.clone(), TaskKind::example);
+            Err(vec![Context { source, tree: &tree, example: &example }.explain(&flaw).diagnostic])
+        }
+    }
 }
 
-fn resolve(source: &Source, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagnostic>> {
-    let example = example();
-    let Draft { value, tree, mut problems } = read::<Scenario>(source, &example);
-    let (Some(mut scenario), Some(tree)) = (value, tree) else { return Err(problems) };
-    let context = Context { source, tree: &tree, example: &example };
+/// The kind of a scenario's task: the only key of its table `task`.
+fn kind_of(tree: &Node) -> Result<&'static TaskKind, Flaw> {
+    let nothing = Node { key: 0..0, span: 0..0, value: Value::Table(BTreeMap::new()) };
+    let stated = decode(tree.child(TASK).unwrap_or(&nothing)).map(|AnyKind(kind)| kind);
+    stated.or_else(|flaw| meant_kind(tree).ok_or_else(|| flaw.inside(TASK)))
+}
 
-    let refused = scenario.refused_values();
-    // an object without size or a map without extent would only draw consequential complaints
-    let placeable =
-        !refused.iter().any(|error| ["world.", "object.", "task."].iter().any(|part| error.field.starts_with(part)));
-    problems.extend(refused.into_iter().map(|error| field_problem(context, error)));
-    if placeable {
-        problems.extend(check_places(context, &scenario));
+/// The kind that a table named almost like `task` names: reading the file as one of that kind finds the misspelled name.
+fn meant_kind(tree: &Node) -> Option<&'static TaskKind> {
+    let Value::Table(entries) = &tree.value else { return None };
+    if entries.contains_key(TASK) {
+        return None;
     }
+    let mut alike = entries.iter().filter(|(name, _)| nearest(name, &[TASK]).is_some());
+    alike.find_map(|(_, table)| decode(table).ok()).map(|AnyKind(kind)| kind)
+}
+
+/// Reads a file as a scenario of one kind, with its arm and everything else that it names.
+pub(crate) fn load_as<F: ReadScenario>(
+    source: &Source,
+    example: &Source,
+    assets: &Assets,
+) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let Draft { value, tree, mut problems } = read::<F>(source, example);
+    let (Some(mut file), Some(tree)) = (value, tree) else { return Err(problems) };
+    let context = Context { source, tree: &tree, example };
+    let refused = file.refused_values();
+    problems.extend(refused.iter().cloned().map(|error| field_problem(context, error)));
+    let name = file.header_mut().name.get_or_insert_with(|| name_of_file(&source.file)).clone();
     let mut reader = Reader { assets, context, problems };
-    let named = read_named(&mut reader, &scenario);
+    let arm = reader.arm("robot.asset", file.arm().asset);
+    let against_arm = arm.as_ref().map(|arm| check_arm(context, &file.arm(), arm));
+    reader.problems.extend(against_arm.into_iter().flatten());
+    let task = file.resolve(&mut reader, &refused);
     let mut problems = reader.problems;
-    if let Some(arm) = &named.arm {
-        problems.extend(check_arm(context, &scenario, arm));
-    }
-    if let Some(tool) = &named.demonstration_tool {
-        problems.extend(check_surfaces(context, &scenario, tool));
-    }
     problems.sort_by_key(|problem| (problem.file != source.file, problem.place.as_ref().map(|place| place.span.start)));
-    match named {
-        Named {
-            tool: Some(tool),
-            demonstration_tool: Some(demonstration_tool),
-            arm: Some(arm),
-            recorded: Some(recorded),
-            learned: Some(learned),
-        } if problems.is_empty() => {
-            let name = scenario.scenario.name.get_or_insert_with(|| name_of_file(&source.file)).clone();
-            let source = source.text.to_string();
-            Ok(ResolvedScenario { name, scenario, tool, demonstration_tool, arm, recorded, learned, source })
+    match (arm, task) {
+        (Some(arm), Some(task)) if problems.is_empty() => {
+            Ok(ResolvedScenario { name, arm, source: source.text.to_string(), task })
         }
         _ => Err(problems),
     }
-}
-
-/// What a scenario names, as far as it could be read.
-struct Named {
-    tool: Option<skills::tool::Tool>,
-    demonstration_tool: Option<skills::tool::Tool>,
-    arm: Option<robot::Manipulator>,
-    recorded: Option<Vec<Demonstration>>,
-    learned: Option<Option<SkillsFile>>,
-}
-
-fn read_named(reader: &mut Reader<'_>, scenario: &Scenario) -> Named {
-    let tool = reader.tool("tool.asset", &scenario.tool.asset);
-    let arm = reader.arm("robot.asset", &scenario.robot.asset);
-    let (key, own_tool, names): (_, _, &[String]) = match &scenario.demonstrations {
-        DemonstrationsConfig::Synthetic(synthetic) => ("demonstrations.synthetic.tool", &synthetic.tool, &[]),
-        DemonstrationsConfig::Recorded { assets, tool } => ("demonstrations.recorded.tool", tool, assets),
-        DemonstrationsConfig::Learned { asset } => {
-            let read = reader.skills("demonstrations.learned.asset", asset);
-            let (demonstration_tool, learned) =
-                read.map_or((None, None), |(tool, file)| (Some(tool), Some(Some(file))));
-            return Named { tool, demonstration_tool, arm, recorded: Some(Vec::new()), learned };
-        }
-    };
-    let demonstration_tool = match own_tool {
-        Some(name) => reader.tool(key, name),
-        None => tool.clone(),
-    };
-    let recorded: Vec<_> = names
-        .iter()
-        .enumerate()
-        .map(|(index, name)| reader.demonstration(&format!("demonstrations.recorded.assets.{index}"), name))
-        .collect();
-    Named { tool, demonstration_tool, arm, recorded: recorded.into_iter().collect(), learned: Some(None) }
 }
 
 #[cfg(test)]

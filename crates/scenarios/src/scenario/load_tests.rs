@@ -5,9 +5,16 @@ use std::path::PathBuf;
 
 use proptest::prelude::*;
 
+use serde::Deserialize;
+use sim::controllers::ControllerConfig;
+use skills::field::FieldError;
+
 use super::*;
 use crate::assets::AssetKind;
-use crate::scenario::named::read_tool;
+use crate::scenario::named::read_asset;
+use crate::scenario::{ArmKeys, Header, RecordingConfig, RobotConfig, ScenarioFile};
+use crate::tasks::ResolvedTask;
+use crate::tasks::push::ResolvedPush;
 use skills::tool::Tool;
 
 fn project() -> PathBuf {
@@ -34,35 +41,40 @@ fn changed(from: &str, to: &str) -> String {
     text.replace(from, to)
 }
 
+/// What is particular to a push in `scenario`.
+fn push(scenario: &ResolvedScenario) -> &ResolvedPush {
+    scenario.as_push().unwrap()
+}
+
 #[test]
 fn the_shipped_scenario_loads() {
     let loaded = load(&project().join("scenarios/push_stick.toml"), &assets()).unwrap();
     assert_eq!(loaded.name, "push_stick");
     assert_eq!(loaded.arm.joint_count(), 3);
-    assert_eq!(loaded.tool, loaded.demonstration_tool);
+    assert_eq!(push(&loaded).tool, push(&loaded).demonstration_tool);
     assert_eq!(notes(&loaded), Vec::<String>::new());
 }
 
 #[test]
 fn a_scenario_written_with_all_defaults_loads_to_the_same() {
     let loaded = load(&project().join("scenarios/push_stick.toml"), &assets()).unwrap();
-    let text = toml::to_string(&loaded.scenario).unwrap();
+    let text = toml::to_string(&push(&loaded).scenario).unwrap();
     let source = Source { file: "again.toml".into(), text: text.as_str().into() };
     let again = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
-    assert_eq!(again.scenario, loaded.scenario);
+    assert_eq!(push(&again).scenario, push(&loaded).scenario);
     assert!(text.contains("time_step_s"), "defaults are written out");
 }
 
 /// A shipped tool.
 fn tool(name: &str) -> Tool {
     let file = assets().path(AssetKind::Tool, name).unwrap();
-    read_tool(&Source::read(&file).unwrap()).unwrap()
+    read_asset(&Source::read(&file).unwrap()).unwrap()
 }
 
 /// The tool of a file with these lines about its shape, or the first problem.
 fn tool_with(lines: &str) -> Result<Tool, String> {
     let text = format!("name = \"tool\"\nmass_kg = 0.01\nfriction = 0.3\n{lines}");
-    read_tool(&Source { file: "tool.toml".into(), text: text.into() }).map_err(|problems| problems[0].to_string())
+    read_asset(&Source { file: "tool.toml".into(), text: text.into() }).map_err(|problems| problems[0].to_string())
 }
 
 #[test]
@@ -129,7 +141,8 @@ fn a_scenario_may_push_with_another_tool_than_was_shown() {
     let text = changed("asset = \"stick\"", "asset = \"l\"").replace("count = 5", "count = 5\ntool = \"stick\"");
     let source = Source { file: "push.toml".into(), text: text.into() };
     let loaded = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
-    assert_eq!((loaded.tool.name.as_str(), loaded.demonstration_tool.name.as_str()), ("l", "stick"));
+    let ResolvedPush { tool, demonstration_tool, .. } = push(&loaded);
+    assert_eq!((tool.name.as_str(), demonstration_tool.name.as_str()), ("l", "stick"));
 }
 
 #[test]
@@ -159,6 +172,114 @@ fn the_object_may_touch_the_border_but_not_cross_it() {
     assert!(problems(&changed("goal_m = [-0.055, 0.125]", "goal_m = [-0.077, 0.125]")).is_empty());
     let found = problems(&changed("goal_m = [-0.055, 0.125]", "goal_m = [-0.079, 0.125]"));
     assert!(found[0].to_string().contains("reaches 0.0010 m beyond the map"), "{}", found[0]);
+}
+
+/// The only problem of a text.
+fn only_problem(text: &str) -> String {
+    let found = problems(text);
+    assert_eq!(found.len(), 1, "{found:?}");
+    found[0].to_string()
+}
+
+/// All kinds of tasks, as messages list them.
+fn kinds() -> String {
+    let names: Vec<String> = crate::tasks::TASKS.iter().map(|kind| format!("`{}`", kind.name)).collect();
+    format!("one of {}", names.join(", "))
+}
+
+#[test]
+fn a_task_of_no_known_kind_is_told_before_anything_else_is_looked_at() {
+    // nothing that stands beside it can be wrong as long as its shape is not known
+    let text = changed("[task.push]", "[task.pusch]").replace("mass_kg", "mas_kg");
+    let expected =
+        format!("push.toml:42:7: unknown kind `pusch` of `task`: expected {}; did you mean `push`?", kinds());
+    assert_eq!(only_problem(&text), expected);
+}
+
+#[test]
+fn a_scenario_without_a_task_or_with_several_is_told_what_to_write() {
+    let none = only_problem("[scenario]\ntitle = \"nothing\"\n[task]\n");
+    let expected = |place: &str| {
+        let expected = format!("found none; expected {}; write for example [task.push]", kinds());
+        format!("{place}: `task` needs exactly one kind: {expected}")
+    };
+    assert_eq!(none, expected("push.toml:3:1"));
+    let several = only_problem("[task.push]\nstart_m = [0, 0]\n[task.scoop]\n");
+    assert!(several.contains("`task` needs exactly one kind: found `push`, `scoop`"), "{several}");
+    let missing = only_problem("[scenario]\ntitle = \"nothing\"\n");
+    assert_eq!(missing, expected("push.toml:1:1"));
+}
+
+#[test]
+fn a_misspelled_table_of_the_task_is_found_although_it_says_which_shape_the_file_has() {
+    let found = only_problem(&changed("[task.push]", "[tusk.push]"));
+    assert!(found.contains("unknown key `tusk`") && found.contains("did you mean `task`?"), "{found}");
+}
+
+/// A scenario of another shape than a push: of an arm that stands still.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Still {
+    scenario: Header,
+    robot: RobotConfig,
+    controller: ControllerConfig,
+    #[serde(rename = "task")]
+    _task: StillTable,
+    #[serde(default)]
+    recording: RecordingConfig,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+enum StillTable {
+    Still {},
+}
+
+impl ScenarioFile for Still {
+    fn header(&self) -> &Header {
+        &self.scenario
+    }
+
+    fn header_mut(&mut self) -> &mut Header {
+        &mut self.scenario
+    }
+
+    fn arm(&self) -> ArmKeys<'_> {
+        self.robot.keys(&self.controller)
+    }
+
+    fn recording(&self) -> &RecordingConfig {
+        &self.recording
+    }
+
+    fn refused_values(&self) -> Vec<FieldError> {
+        self.scenario.validate().err().into_iter().collect()
+    }
+}
+
+impl ReadScenario for Still {
+    fn resolve(self, _: &mut Reader<'_>, _: &[FieldError]) -> Option<ResolvedTask> {
+        None
+    }
+}
+
+#[test]
+fn a_scenario_has_the_shape_of_its_task_and_its_arm_is_checked_all_the_same() {
+    let problems = |frame: &str, rest: &str| {
+        let text = format!(
+            "[scenario]\ntitle = \"still\"\n[robot]\nasset = \"planar_3r\"\ntool_frame = \"{frame}\"\n\
+             [controller.impedance]\ndamping_nm_s_per_rad = [1.0, 1.0]\n[task.still]\n{rest}"
+        );
+        let source = Source { file: "still.toml".into(), text: text.into() };
+        let found = load_as::<Still>(&source, &source, &assets()).map(drop).unwrap_err();
+        found.iter().map(|problem| problem.title.clone()).collect::<Vec<_>>()
+    };
+    let gains = "bad value for `damping_nm_s_per_rad` in [controller.impedance]";
+    assert_eq!(problems("flange", ""), [gains], "a push would miss its world");
+    assert_eq!(
+        problems("hand", "[world]\n"),
+        ["unknown frame in `tool_frame` in [robot]", gains, "unknown key `world` in the file"]
+    );
 }
 
 proptest! {

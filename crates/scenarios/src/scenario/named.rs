@@ -2,12 +2,14 @@
 
 use std::path::Path;
 
-use robot::Manipulator;
+use robot::{Manipulator, MeshOptions};
+use serde::de::DeserializeOwned;
 use skills::demonstration::Demonstration;
 use skills::field::FieldError;
+use skills::primitive::pose::PoseTrajectory;
 use skills::tool::{Tool, ToolFile};
 
-use super::document::path;
+use super::document::{Node, Value, path};
 use super::draft::{Draft, read};
 use super::explain::{Context, bad_value, key_name};
 use super::skills_file::{self, SkillsFile};
@@ -15,12 +17,33 @@ use super::source::Source;
 use crate::assets::{AssetError, AssetKind, Assets};
 use crate::diagnostic::Diagnostic;
 use crate::suggest::{did_you_mean, listed};
-use crate::tasks::read_demonstration;
+use crate::tasks::{is_poses, read_demonstration, read_poses};
 
-/// A tool file that shows how keys are written.
-pub(crate) fn example_tool() -> Source {
-    let text = include_str!("../../../../assets/tools/stick.toml");
-    Source { file: "assets/tools/stick.toml".into(), text: text.into() }
+/// What is described by TOML files of its own in the assets.
+pub(crate) trait TomlAsset: Sized {
+    /// What is in such a file.
+    type File: DeserializeOwned;
+    /// Kind of the asset.
+    const KIND: AssetKind;
+    /// Path and text of a valid file, which shows how keys are written.
+    const EXAMPLE: (&'static str, &'static str);
+
+    /// Checks the numbers of a file and makes of it what is used.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    fn from_file(file: Self::File) -> Result<Self, FieldError>;
+}
+
+impl TomlAsset for Tool {
+    type File = ToolFile;
+    const KIND: AssetKind = AssetKind::Tool;
+    const EXAMPLE: (&'static str, &'static str) =
+        ("assets/tools/stick.toml", include_str!("../../../../assets/tools/stick.toml"));
+
+    fn from_file(file: ToolFile) -> Result<Self, FieldError> {
+        file.tool()
+    }
 }
 
 /// Reads the assets that a scenario names, collecting what is wrong with them.
@@ -34,19 +57,32 @@ pub(crate) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// Reads the tool `name` that the key at `key` asks for.
-    pub fn tool(&mut self, key: &str, name: &str) -> Option<Tool> {
-        let source = self.source(AssetKind::Tool, key, name)?;
-        let result = read_tool(&source);
+    /// Reads the asset `name` that the key at `key` asks for: a tool, a food.
+    pub fn asset<A: TomlAsset>(&mut self, key: &str, name: &str) -> Option<A> {
+        let source = self.source(A::KIND, key, name)?;
+        let result = read_asset(&source);
         self.keep(key, result)
     }
 
     /// Reads the arm `name` that the key at `key` asks for.
     pub fn arm(&mut self, key: &str, name: &str) -> Option<Manipulator> {
         let source = self.source(AssetKind::Robot, key, name)?;
-        let result =
-            Manipulator::from_urdf_str(&source.text).map_err(|error| vec![urdf_problem(&source, &error.to_string())]);
+        let read = Manipulator::from_urdf_str(&source.text).and_then(|mut arm| {
+            arm.resolve_meshes(&self.meshes());
+            arm.check_dynamics()?;
+            Ok(arm)
+        });
+        let result = read.map_err(|error| vec![urdf_problem(&source, &error.to_string())]);
         self.keep(key, result)
+    }
+
+    /// Where the meshes of arms are looked for: beside the arms, and for a package in the folder of its name there.
+    fn meshes(&self) -> MeshOptions {
+        let folder = self.assets.root().join(AssetKind::Robot.folder());
+        let entries = std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let packages = entries.filter(|path| path.is_dir());
+        let named = packages.filter_map(|path| Some((path.file_name()?.to_str()?.to_owned(), path)));
+        MeshOptions { package_roots: named.collect(), base_dir: Some(folder) }
     }
 
     /// Reads the demonstration `name` that the key at `key` asks for.
@@ -56,14 +92,19 @@ impl Reader<'_> {
         self.keep(key, result)
     }
 
+    /// Reads the recorded poses of a knife `name` that the key at `key` asks for.
+    pub fn poses(&mut self, key: &str, name: &str) -> Option<PoseTrajectory> {
+        let source = self.source(AssetKind::Demonstration, key, name)?;
+        let result = read_poses(&source).map_err(|problem| vec![*problem]);
+        self.keep(key, result)
+    }
+
     /// Reads the skills `name` that the key at `key` asks for, and the tool that they were learned with.
     pub fn skills(&mut self, key: &str, name: &str) -> Option<(Tool, SkillsFile)> {
         let source = self.source(AssetKind::Skills, key, name)?;
         let result = skills_file::read(&source);
         let file = self.keep(key, result)?;
-        let tool_source = self.source(AssetKind::Tool, key, &file.learned.tool)?;
-        let result = read_tool(&tool_source);
-        let tool = self.keep(key, result)?;
+        let tool: Tool = self.asset(key, &file.learned.tool)?;
         let result = skills_file::check(&source, &file, &tool);
         self.keep(key, result)?;
         Some((tool, file))
@@ -111,28 +152,46 @@ impl Reader<'_> {
     }
 }
 
-/// Reads and checks a tool file.
-pub(crate) fn read_tool(source: &Source) -> Result<Tool, Vec<Diagnostic>> {
-    let example = example_tool();
-    let Draft { value, tree, mut problems } = read::<ToolFile>(source, &example);
+/// Reads and checks the file of an asset.
+pub(crate) fn read_asset<A: TomlAsset>(source: &Source) -> Result<A, Vec<Diagnostic>> {
+    let (file, text) = A::EXAMPLE;
+    let example = Source { file: file.into(), text: text.into() };
+    let Draft { value, tree, mut problems } = read::<A::File>(source, &example);
     let (Some(file), Some(tree)) = (value, tree) else { return Err(problems) };
-    match file.tool() {
-        Ok(tool) if problems.is_empty() => return Ok(tool),
+    match A::from_file(file) {
+        Ok(asset) if problems.is_empty() => return Ok(asset),
         Ok(_) => {}
         Err(error) => problems.push(field_problem(Context { source, tree: &tree, example: &example }, error)),
     }
     Err(problems)
 }
 
-/// Title line of a tool file, for lists.
-pub(crate) fn tool_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
+/// Title line of an asset's file, for lists.
+pub(crate) fn asset_description<A: TomlAsset>(
+    file: &Path,
+    describe: fn(A) -> String,
+) -> Result<String, Vec<Diagnostic>> {
     let source = Source::read(file).map_err(|problem| vec![*problem])?;
-    read_tool(&source).map(|tool| tool.description)
+    read_asset(&source).map(describe)
+}
+
+/// What a TOML file says about itself under `description`, for lists; nothing else in it is looked at.
+pub(crate) fn stated_description(file: &Path) -> Result<String, Box<Diagnostic>> {
+    let tree = Node::parse(&Source::read(file)?)?;
+    Ok(match tree.child("description").map(|node| &node.value) {
+        Some(Value::Text(text)) => text.clone(),
+        _ => String::new(),
+    })
 }
 
 /// Length and rows of a recorded demonstration, for lists.
 pub(crate) fn demonstration_description(file: &Path) -> Result<String, Box<Diagnostic>> {
-    let Demonstration { tool, object, .. } = read_demonstration(&Source::read(file)?)?;
+    let source = Source::read(file)?;
+    if is_poses(&source) {
+        let poses = read_poses(&source)?;
+        return Ok(format!("{:.1} s: {} poses of a knife", poses.duration_s(), poses.poses().len()));
+    }
+    let Demonstration { tool, object, .. } = read_demonstration(&source)?;
     Ok(format!("{:.1} s: {} poses of the tool, {} of the object", tool.duration_s(), tool.len(), object.len()))
 }
 
@@ -157,8 +216,18 @@ fn urdf_problem(source: &Source, reason: &str) -> Diagnostic {
         let start = source.text.find(&format!("name=\"{name}\""))?;
         Some(start..start + name.len() + "name=\"\"".len())
     });
-    let span = named.or_else(|| xml_place(source, reason)).unwrap_or(0..0);
+    let span = line_place(source, reason).or(named).or_else(|| xml_place(source, reason)).unwrap_or(0..0);
     source.problem(span, "the robot cannot be used").found(reason.strip_prefix("read urdf: ").unwrap_or(reason))
+}
+
+/// The text of the line that "line 12:" names.
+fn line_place(source: &Source, reason: &str) -> Option<std::ops::Range<usize>> {
+    let digits = reason.split_once("line ")?.1.split_once(':')?.0;
+    let before = digits.parse::<usize>().ok()?.checked_sub(1)?;
+    let start = source.text.split_inclusive('\n').take(before).map(str::len).sum::<usize>();
+    let line = source.text.get(start..)?.lines().next()?;
+    let blanks = line.len() - line.trim_start().len();
+    Some(start + blanks..start + line.trim_end().len())
 }
 
 /// Byte of the first "line:column" in the words of an XML parser.

@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// More demonstrations than this say nothing new and take hours.
+pub(crate) const MOST_DEMONSTRATIONS: usize = 1000;
+
 /// Version of the layout of `demonstrations.json`.
 pub const DEMONSTRATIONS_SCHEMA: &str = "wield.demonstrations/1";
 
@@ -35,13 +38,13 @@ pub struct DemonstrationTrial {
     pub success: bool,
     /// Why not; `null` on success.
     pub failure: Option<String>,
-    /// True distance of the object from where it was wanted, mm.
+    /// True distance of the object from where it was wanted, mm; of a cut, that of the edge from the board at its deepest.
     pub goal_error_mm: f64,
     /// Recorded time, s.
     pub duration_s: f64,
     /// Times that the human let go and took hold again within a push.
     pub renewed_holds: usize,
-    /// First and last moment of each touch between tool and object, s: the truth, which the recording does not hold.
+    /// First and last moment of each touch between tool and object, or of the edge in the food, s: the truth, which the recording does not hold.
     pub touches_s: Vec<(f64, f64)>,
 }
 

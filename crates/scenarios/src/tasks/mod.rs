@@ -1,20 +1,96 @@
-//! Tasks: what is to be done, and how well it was done. A task is one file (or folder) and its lines here.
+//! Tasks: what is to be done, and how well it was done. A task is one folder and its lines here.
+//!
+//! The folder of a kind, `push` for example, holds
+//!
+//! - its scenario file, a struct with `deny_unknown_fields` whose field `task` is an enum of one variant, so that the file
+//!   says `[task.push]`; `ScenarioFile` tells of it what all kinds share;
+//! - a struct of that and of what else the file names, read by `ReadScenario::resolve`: it is the variant of
+//!   [`ResolvedTask`], and by `TaskPart` it starts the task;
+//! - the task itself, the verbs of [`Task`];
+//! - a [`TaskKind`]: name, summary, a shipped scenario that shows how keys are written, `load_as` of the file's struct.
+//!
+//! Its lines here are `mod`, one variant of [`ResolvedTask`] and its arm in `ResolvedTask::part`, and one entry of
+//! [`TASKS`]. Loading, running, learning, lists, reports and recordings follow from these.
 
+pub mod cut;
 mod demonstrations;
-mod push;
+pub mod pour;
+pub mod push;
+pub mod reach;
+mod runnable;
+pub mod spatial;
 
-use nalgebra::Isometry2;
-use serde::{Deserialize, Serialize};
-use sim::planar::Observer;
-use skills::field::FieldError;
+use std::fmt;
 
+use serde::de::{Deserialize, Deserializer, EnumAccess, Error as _, IgnoredAny, VariantAccess, Visitor};
+
+pub(crate) use cut::{is_poses, read_poses};
+pub(crate) use demonstrations::MOST_DEMONSTRATIONS;
 pub use demonstrations::{DEMONSTRATIONS_SCHEMA, DemonstrationTrial, DemonstrationsReport, ShownTrial};
-pub use push::PushConfig;
-pub(crate) use push::{CarriedOut, read_demonstration};
+pub(crate) use push::read_demonstration;
+pub(crate) use runnable::Runnable;
+
+use robot::RobotError;
+use sim::SimError;
 
 use crate::outcome::Outcome;
-use crate::pipeline::{Progress, Report, RunError, learn_task, run_task};
-use crate::scenario::{ResolvedScenario, SkillsFile};
+use crate::pipeline::{Onlooker, Progress};
+use crate::scenario::{Loader, ResolvedScenario, ScenarioFile, SkillsFile, Source};
+
+/// All kinds of tasks.
+pub const TASKS: &[TaskKind] = &[push::KIND, reach::KIND, cut::KIND, pour::KIND];
+
+/// What is particular to the kind of a scenario's task: its file and what else that names.
+#[derive(Clone, Debug)]
+pub enum ResolvedTask {
+    /// Push an object over a table to a goal.
+    Push(Box<push::ResolvedPush>),
+    /// Cut a food on a board.
+    Cut(Box<cut::ResolvedCut>),
+    /// Bring the tool through waypoints in space.
+    Reach(Box<reach::ResolvedReach>),
+    /// Pour beans from a held cup into a container.
+    Pour(Box<pour::ResolvedPour>),
+}
+
+impl ResolvedTask {
+    /// What the program asks of every kind.
+    pub(crate) fn part(&self) -> &dyn TaskPart {
+        match self {
+            Self::Push(push) => push.as_ref(),
+            Self::Cut(cut) => cut.as_ref(),
+            Self::Reach(reach) => reach.as_ref(),
+            Self::Pour(pour) => pour.as_ref(),
+        }
+    }
+}
+
+/// What the program asks of the part of a scenario that is particular to the kind of its task.
+pub(crate) trait TaskPart {
+    /// Name of the kind: the key of its table in a scenario.
+    fn kind(&self) -> &'static str;
+
+    /// The scenario file with all defaults filled in.
+    fn file(&self) -> &dyn ScenarioFile;
+
+    /// The scenario file as TOML, every default written out, with another seed; the error is in words.
+    fn text(&self, seed: u64) -> Result<String, String>;
+
+    /// The part itself if it is that of a push, for what only pushes have.
+    fn as_push(&self) -> Option<&push::ResolvedPush> {
+        None
+    }
+
+    /// The task, ready to be run; `scenario` is the one that this is part of.
+    fn start<'a>(&'a self, scenario: &'a ResolvedScenario, seed: u64) -> Box<dyn Runnable + 'a>;
+}
+
+/// Writes a scenario file as TOML, every default written out, with another seed; the error is in words.
+pub(crate) fn written<F: ScenarioFile + serde::Serialize + Clone>(file: &F, seed: u64) -> Result<String, String> {
+    let mut file = file.clone();
+    file.header_mut().seed = seed;
+    toml::to_string(&file).map_err(|error| error.to_string())
+}
 
 /// The verbs of a task. Each of the five that make a run is a function of what stands before it, the scenario and its
 /// seed.
@@ -47,8 +123,7 @@ pub trait Task {
     ) -> Result<(), StageError> {
         let _ = (count, progress, each);
         Err(StageError::Input(
-            "tasks of this kind have no synthetic human; expected one that has; name files in [demonstrations.recorded]"
-                .into(),
+            "tasks of this kind have no synthetic human; expected a task that has one, such as push".into(),
         ))
     }
 
@@ -79,7 +154,7 @@ pub trait Task {
     ///
     /// # Errors
     /// A [`StageError`].
-    fn simulate(&self, plan: &Self::Plan, observer: &mut dyn Observer) -> Result<Self::Episode, StageError>;
+    fn simulate(&self, plan: &Self::Plan, observer: &mut dyn Onlooker) -> Result<Self::Episode, StageError>;
 
     /// Judges what happened; sees no physics.
     fn judge(&self, shown: &Self::Shown, skills: &Self::Skills, plan: &Self::Plan, episode: &Self::Episode) -> Outcome;
@@ -99,113 +174,83 @@ pub enum StageError {
     Broken(String),
 }
 
-/// A place at which the object is to stand.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stand {
-    /// Dotted path of the scenario's key that names it.
-    pub key: &'static str,
-    /// Pose of the object there.
-    pub world_from_object: Isometry2<f64>,
-}
-
-impl Stand {
-    /// The place that `key` names, world frame, m and rad.
-    #[must_use]
-    pub fn new(key: &'static str, position_m: [f64; 2], angle_rad: f64) -> Self {
-        Self { key, world_from_object: Isometry2::new(position_m.into(), angle_rad) }
-    }
-}
-
-/// What is to be done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum TaskConfig {
-    /// Push an object over a table to a goal.
-    Push(PushConfig),
-}
-
-/// A kind of task, as `wield list tasks` shows it.
+/// A kind of task.
 #[derive(Clone, Copy, Debug)]
 pub struct TaskKind {
     /// Name: the key of its table in a scenario.
     pub name: &'static str,
     /// One line about it.
     pub summary: &'static str,
+    /// Path and text of a shipped scenario of this kind, which shows how keys are written.
+    pub(crate) example: (&'static str, &'static str),
+    /// Reads a scenario of this kind.
+    pub(crate) load: Loader,
 }
 
-/// All kinds of tasks.
-pub const TASKS: &[TaskKind] =
-    &[TaskKind { name: "push", summary: "push an object over a table to a goal, past obstacles, with a tool" }];
+impl TaskKind {
+    /// A scenario of this kind that shows how keys are written.
+    pub(crate) fn example(&self) -> Source {
+        let (file, text) = self.example;
+        Source { file: file.into(), text: text.into() }
+    }
+}
 
-/// Runs a scenario with its task.
-pub(crate) fn dispatch(
-    scenario: &ResolvedScenario,
-    seed: u64,
-    observer: &mut dyn Observer,
-    progress: Progress<'_>,
-) -> Result<Report, RunError> {
-    match &scenario.scenario.task {
-        TaskConfig::Push(config) => {
-            run_task(&push::PushTask::new(scenario, config, seed), scenario, seed, observer, progress)
+/// The names of all kinds, in their order.
+const NAMES: [&str; TASKS.len()] = {
+    let mut names = [""; TASKS.len()];
+    let mut index = 0;
+    while index < TASKS.len() {
+        names[index] = TASKS[index].name;
+        index += 1;
+    }
+    names
+};
+
+/// The kind that a table `task` names, whatever else it holds.
+///
+/// Read like an enum with the kinds as variants, so that a missing, unknown or second kind is told like that of any other
+/// table.
+pub(crate) struct AnyKind(pub &'static TaskKind);
+
+impl<'de> Deserialize<'de> for AnyKind {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_enum("task", &NAMES, KindVisitor)
+    }
+}
+
+struct KindVisitor;
+
+impl<'de> Visitor<'de> for KindVisitor {
+    type Value = AnyKind;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a kind of task")
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, kinds: A) -> Result<AnyKind, A::Error> {
+        let (name, content): (String, _) = kinds.variant()?;
+        content.newtype_variant::<IgnoredAny>()?;
+        let kind = TASKS.iter().find(|kind| kind.name == name);
+        kind.map(AnyKind).ok_or_else(|| A::Error::unknown_variant(&name, &NAMES))
+    }
+}
+
+/// A failure of the simulation as that of a stage: the scenario's fault or the program's.
+pub(crate) fn broken(error: SimError) -> StageError {
+    match error {
+        SimError::Field(_) | SimError::Arm { .. } => StageError::Input(error.to_string()),
+        other => StageError::Broken(other.to_string()),
+    }
+}
+
+/// The same, where a plan that is out of reach means that the task cannot be done.
+pub(crate) fn infeasible(error: SimError) -> StageError {
+    match error {
+        SimError::Unreachable { .. } => StageError::Infeasible(error.to_string()),
+        // an arm that no plan can lead is the scenario's mistake
+        SimError::Robot(RobotError::TooFewJoints { .. } | RobotError::FrameBehindMimic { .. }) => {
+            StageError::Input(format!("robot.asset, robot.tool_frame: {error}"))
         }
-    }
-}
-
-/// Carries a push out and keeps what came up on the way.
-pub(crate) fn carry_out(scenario: &ResolvedScenario, seed: u64) -> Result<CarriedOut, StageError> {
-    match &scenario.scenario.task {
-        TaskConfig::Push(config) => push::carry_out(&push::PushTask::new(scenario, config, seed)),
-    }
-}
-
-/// Learns what a scenario's demonstrations show.
-pub(crate) fn learn(
-    scenario: &ResolvedScenario,
-    seed: u64,
-    progress: Progress<'_>,
-) -> Result<Result<SkillsFile, String>, RunError> {
-    match &scenario.scenario.task {
-        TaskConfig::Push(config) => learn_task(&push::PushTask::new(scenario, config, seed), progress),
-    }
-}
-
-/// Lets the synthetic human of a scenario show its task.
-pub(crate) fn show(
-    scenario: &ResolvedScenario,
-    seed: u64,
-    count: Option<usize>,
-    progress: Progress<'_>,
-    each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
-) -> Result<(), StageError> {
-    match &scenario.scenario.task {
-        TaskConfig::Push(config) => push::PushTask::new(scenario, config, seed).show(count, progress, each),
-    }
-}
-
-impl TaskConfig {
-    /// The kind's name: the key of its table in a scenario.
-    #[must_use]
-    pub fn kind(&self) -> &'static str {
-        match self {
-            Self::Push(_) => "push",
-        }
-    }
-
-    /// Where the task puts the object, so that a place inside an obstacle is refused before anything runs.
-    #[must_use]
-    pub fn stands(&self) -> Vec<Stand> {
-        match self {
-            Self::Push(push) => push.stands(),
-        }
-    }
-
-    /// Checks the task's numbers on their own.
-    ///
-    /// # Errors
-    /// A [`FieldError`] naming the offending value.
-    pub fn validate(&self) -> Result<(), FieldError> {
-        match self {
-            Self::Push(push) => push.validate().map_err(|error| error.within("push")),
-        }
+        other => broken(other),
     }
 }

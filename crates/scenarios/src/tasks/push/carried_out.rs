@@ -6,8 +6,9 @@ use skills::plan::Plan;
 use skills::tool_use::SkillLibrary;
 use skills::transfer::Transfer;
 
-use super::{PushTask, StageError};
+use super::{PushTask, ResolvedPush, StageError};
 use crate::outcome::Outcome;
+use crate::scenario::ResolvedScenario;
 use crate::tasks::Task;
 
 /// What each verb of a push gave.
@@ -27,7 +28,8 @@ pub struct CarriedOut {
 }
 
 /// Carries a push out, from its demonstrations to its outcome.
-pub fn carry_out(task: &PushTask<'_>) -> Result<CarriedOut, StageError> {
+pub fn carry_out(scenario: &ResolvedScenario, push: &ResolvedPush, seed: u64) -> Result<CarriedOut, StageError> {
+    let task = PushTask::new(scenario, push, seed);
     let shown = task.demonstrations(&|_, _| {})?;
     let learned = task.learn(&shown)?;
     let checked = task.plan(&learned)?;

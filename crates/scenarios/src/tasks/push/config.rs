@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Isometry2;
 use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, within};
 use skills::tool_use::Orientation;
 use skills::transfer::{Side, TransferConfig};
-
-use crate::tasks::Stand;
 
 /// What is to be pushed where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -55,6 +54,22 @@ pub struct TransferTask {
     pub planner: TransferConfig,
 }
 
+/// A place at which the object is to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Stand {
+    /// Dotted path of the scenario's key that names it.
+    pub(super) key: &'static str,
+    /// Pose of the object there.
+    pub(super) world_from_object: Isometry2<f64>,
+}
+
+impl Stand {
+    /// The place that `key` names, world frame, m and rad.
+    pub(super) fn new(key: &'static str, position_m: [f64; 2], angle_rad: f64) -> Self {
+        Self { key, world_from_object: Isometry2::new(position_m.into(), angle_rad) }
+    }
+}
+
 /// A tool waits on the table or beside it, m.
 const FARTHEST_M: f64 = 10.0;
 /// Speeds that make sense on a table, m/s, and the longest rest after a run, s.
@@ -82,8 +97,7 @@ impl PushConfig {
     }
 
     /// Where the object starts and where it is wanted; the goal leaves the angle open, and the start's is taken.
-    #[must_use]
-    pub fn stands(&self) -> Vec<Stand> {
+    pub(super) fn stands(&self) -> Vec<Stand> {
         let at = |key, position_m| Stand::new(key, position_m, self.start_angle_rad);
         vec![at("task.push.start_m", self.start_m), at("task.push.goal_m", self.goal_m)]
     }

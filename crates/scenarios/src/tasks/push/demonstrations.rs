@@ -4,9 +4,8 @@ use sim::human::{DemonstrationTask, Trial, demonstrate};
 use skills::demonstration::Demonstration;
 use skills::tool::Tool;
 
-use super::{PushTask, broken, recorded};
+use super::{DemonstrationsConfig, PushTask, SyntheticConfig, broken, recorded};
 use crate::pipeline::Progress;
-use crate::scenario::{DemonstrationsConfig, SyntheticConfig};
 use crate::suggest::listed;
 use crate::tasks::{DemonstrationTrial, ShownTrial, StageError};
 
@@ -25,9 +24,9 @@ pub struct Shown {
 /// Loads the recorded demonstrations, or lets the synthetic human show as many as the scenario wants.
 pub fn obtain(task: &PushTask<'_>, progress: Progress<'_>) -> Result<Shown, StageError> {
     let mut shown = Shown::default();
-    match &task.scenario.scenario.demonstrations {
+    match &task.push.scenario.demonstrations {
         DemonstrationsConfig::Learned { .. } => {}
-        DemonstrationsConfig::Recorded { .. } => shown.demonstrations.clone_from(&task.scenario.recorded),
+        DemonstrationsConfig::Recorded { .. } => shown.demonstrations.clone_from(&task.push.recorded),
         DemonstrationsConfig::Synthetic(config) => run_trials(task, config, config.count, progress, &mut |trial| {
             match trial.failure {
                 Some(reason) => shown.failed.push(format!("{} {reason}", trial.demonstration.name)),
@@ -46,7 +45,7 @@ pub fn show(
     progress: Progress<'_>,
     each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
 ) -> Result<(), StageError> {
-    let DemonstrationsConfig::Synthetic(config) = &task.scenario.scenario.demonstrations else {
+    let DemonstrationsConfig::Synthetic(config) = &task.push.scenario.demonstrations else {
         return Err(StageError::Input(
             "the scenario has demonstrations or skills already; expected [demonstrations.synthetic], a human who can \
              show the task"
@@ -68,8 +67,8 @@ fn run_trials(
     progress: Progress<'_>,
     each: &mut dyn FnMut(Trial) -> Result<(), StageError>,
 ) -> Result<(), StageError> {
-    let scenario = &task.scenario.scenario;
-    let tool = &task.scenario.demonstration_tool;
+    let scenario = &task.push.scenario;
+    let tool = &task.push.demonstration_tool;
     let surfaces = surface_indices(tool, &config.surfaces)?;
     let asked = DemonstrationTask {
         world: &scenario.world,
@@ -110,7 +109,7 @@ fn run_trials(
 /// A trial with the text of its file, which holds only what the recorders saw.
 fn written(task: &PushTask<'_>, config: &SyntheticConfig, number: usize, trial: &Trial) -> ShownTrial {
     let scenario = task.scenario;
-    let tool = &scenario.demonstration_tool;
+    let tool = &task.push.demonstration_tool;
     let surfaces: Vec<&str> = match config.surfaces.as_slice() {
         [] => tool.surfaces.iter().map(|surface| surface.name.as_str()).collect(),
         named => named.iter().map(String::as_str).collect(),

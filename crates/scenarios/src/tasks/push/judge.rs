@@ -88,7 +88,7 @@ fn nearest_obstacle(
 
 /// Smallest distances of tool and object from obstacles over an episode, m.
 fn clearances_m(task: &PushTask<'_>, episode: &Episode) -> (Option<f64>, Option<f64>) {
-    let scenario = &task.scenario.scenario;
+    let scenario = &task.push.scenario;
     let every = looks(episode);
     let object = every
         .clone()
@@ -96,7 +96,7 @@ fn clearances_m(task: &PushTask<'_>, episode: &Episode) -> (Option<f64>, Option<
     let object = object.map(|(_, distance)| distance).min_by(f64::total_cmp);
     let tool =
         every.flat_map(|sample| {
-            task.scenario.tool.pieces.iter().filter_map(move |piece| {
+            task.push.tool.pieces.iter().filter_map(move |piece| {
                 scenario.world.clearance_m(&piece.shape, &(sample.world_from_tool * piece.pose()))
             })
         });
@@ -114,7 +114,7 @@ fn place(pose: &Isometry2<f64>) -> Point2<f64> {
 
 /// The measures of a push.
 pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Measure> {
-    let limits = &task.scenario.scenario.limits;
+    let limits = &task.push.scenario.limits;
     let end = episode.samples.last();
     let goal = Point2::from(task.config.goal_m);
     let goal_error = end.map(|sample| (place(&sample.world_from_object) - goal).norm() * MM);
@@ -141,7 +141,7 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
         "mm",
         Limit::AtMost(limits.goal_error_m * MM),
     )];
-    if !task.scenario.scenario.world.obstacles.is_empty() {
+    if !task.push.scenario.world.obstacles.is_empty() {
         measures.push(Measure::judged(
             "object_clearance_mm",
             "object to obstacles",
@@ -157,8 +157,7 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
             tool_limit,
         ));
     }
-    let margin =
-        looks(episode).map(|sample| task.scenario.scenario.world.map.margin_m(&place(&sample.world_from_object)));
+    let margin = looks(episode).map(|sample| task.push.scenario.world.map.margin_m(&place(&sample.world_from_object)));
     let margin = margin.min_by(f64::total_cmp).map(|margin| margin * MM);
     measures.extend([
         Measure::judged("collisions", "contacts with obstacles", collisions(episode), "1", Limit::AtMost(0.0)),
@@ -310,7 +309,7 @@ impl ContactStory {
 
 /// How far from the middle of its surface the object is held, as a share of the usable half.
 fn used_share(task: &PushTask<'_>, push: &Push, sample: &EpisodeSample) -> f64 {
-    let Some(surface) = task.scenario.tool.surfaces.get(push.surface) else { return 0.0 };
+    let Some(surface) = task.push.tool.surfaces.get(push.surface) else { return 0.0 };
     let in_tool = sample.world_from_tool.inverse() * place(&sample.world_from_object);
     (surface.place_m(&in_tool) / (surface.length_m() / 2.0)).abs()
 }

@@ -1,19 +1,23 @@
 //! Pushing: bring an object over a table to a goal.
 
 mod carried_out;
+mod check;
 mod config;
 mod demonstrations;
 mod judge;
 mod recorded;
+mod resolved;
+mod scenario;
+mod sections;
 mod transferring;
+mod variation;
 mod varying;
 
 use nalgebra::{DVector, Isometry2, Point2, Vector2};
 use robot::Manipulator;
-use sim::SimError;
 use sim::controllers::Controller;
 use sim::planar::{
-    ArmDescription, ArmReach, ClosedLoop, ClosedLoopConfig, Episode, Observer, OpenLoop, PlanarSetup, ReferenceSource,
+    ArmDescription, ArmReach, ClosedLoop, ClosedLoopConfig, Episode, OpenLoop, PlanarSetup, ReferenceSource,
     SceneDescription, arm_with_tool, check_reach, simulate,
 };
 use sim::random::{Purpose, stream};
@@ -23,16 +27,28 @@ use skills::tool_use::{LearningReport, PushProblem, SkillLibrary};
 use skills::transfer::Transfer;
 
 pub(crate) use carried_out::{CarriedOut, carry_out};
-pub use config::PushConfig;
+pub use config::{PushConfig, TransferTask};
 pub(crate) use recorded::read as read_demonstration;
+pub use resolved::ResolvedPush;
+pub use scenario::{PushScenario, PushTable};
+pub use sections::{DemonstrationsConfig, ExecutionConfig, ExecutionMode, Limits, SyntheticConfig};
+pub use variation::{Variation, VariationConfig};
 
 use demonstrations::Shown;
 use varying::Actual;
 
-use super::{ShownTrial, StageError, Task};
+use super::{ShownTrial, StageError, Task, TaskKind, broken, infeasible};
 use crate::outcome::Outcome;
-use crate::pipeline::Progress;
-use crate::scenario::{ExecutionMode, Origin, ResolvedScenario, SkillsFile};
+use crate::pipeline::{Onlooker, Progress};
+use crate::scenario::{Origin, ResolvedScenario, SkillsFile, load_as};
+
+/// The kind.
+pub(crate) const KIND: TaskKind = TaskKind {
+    name: "push",
+    summary: "push an object over a table to a goal, past obstacles, with a tool",
+    example: ("scenarios/push_stick.toml", include_str!("../../../../../scenarios/push_stick.toml")),
+    load: load_as::<PushScenario>,
+};
 
 /// Time between two motions of a plan, s.
 const PLAN_STEP_S: f64 = 0.002;
@@ -45,8 +61,11 @@ const LOOK_FIRST_S: f64 = 30.0;
 const DRAWING_STEP_S: f64 = 0.05;
 
 /// A pushing task of one scenario and seed.
-pub struct PushTask<'a> {
+pub(crate) struct PushTask<'a> {
+    /// The whole scenario.
     scenario: &'a ResolvedScenario,
+    /// What is particular to a push in it.
+    push: &'a ResolvedPush,
     config: &'a PushConfig,
     seed: u64,
     /// What is really there.
@@ -54,13 +73,13 @@ pub struct PushTask<'a> {
 }
 
 /// What was learned.
-pub struct Learned {
+pub(crate) struct Learned {
     library: SkillLibrary,
     report: LearningReport,
 }
 
 /// A plan that the arm can carry out.
-pub struct Checked {
+pub(crate) struct Checked {
     plan: Plan,
     /// What the plan was made of, if the skill was transferred.
     transfer: Option<Transfer>,
@@ -73,13 +92,13 @@ pub struct Checked {
 
 impl<'a> PushTask<'a> {
     /// The task that a scenario states.
-    pub fn new(scenario: &'a ResolvedScenario, config: &'a PushConfig, seed: u64) -> Self {
-        Self { scenario, config, seed, actual: Actual::new(scenario, config, seed) }
+    pub(crate) fn new(scenario: &'a ResolvedScenario, push: &'a ResolvedPush, seed: u64) -> Self {
+        Self { scenario, push, config: push.scenario.push(), seed, actual: Actual::new(push, seed) }
     }
 
     /// Looks at the object before anything moves: the camera, and the mean of its first frames.
     fn look_first(&self) -> Result<(Camera, Point2<f64>), StageError> {
-        let mut camera = Camera::new(&self.scenario.scenario.camera, stream(self.seed, Purpose::Camera, 0));
+        let mut camera = Camera::new(&self.push.scenario.camera, stream(self.seed, Purpose::Camera, 0));
         let (there, period_s) = (self.actual.world_from_object, self.period_s());
         let (mut sum, mut frames, mut newest_s) = (Vector2::zeros(), 0, f64::NEG_INFINITY);
         for period in 0..(LOOK_FIRST_S / period_s) as usize {
@@ -101,11 +120,11 @@ impl<'a> PushTask<'a> {
     }
 
     fn period_s(&self) -> f64 {
-        self.scenario.scenario.engine.control_period_s
+        self.push.scenario.engine.control_period_s
     }
 
     fn scene_description(&self, checked: &Checked) -> SceneDescription {
-        let scenario = &self.scenario.scenario;
+        let scenario = &self.push.scenario;
         let path = |track: fn(&Action) -> &Track| {
             checked.plan.actions().iter().flat_map(|action| drawn(track(action))).collect()
         };
@@ -113,7 +132,7 @@ impl<'a> PushTask<'a> {
         SceneDescription {
             world: scenario.world.clone(),
             object: scenario.object.clone(),
-            tool: self.scenario.tool.clone(),
+            tool: self.push.tool.clone(),
             arm: ArmDescription {
                 joints: joints.iter().map(|joint| joint.name.clone()).collect(),
                 torque_limits_nm: joints.iter().map(|joint| joint.limits.effort.unwrap_or(f64::INFINITY)).collect(),
@@ -128,10 +147,10 @@ impl<'a> PushTask<'a> {
 
     /// The arm with the tool in its hand.
     fn model(&self) -> Result<Manipulator, StageError> {
-        let scenario = &self.scenario.scenario;
+        let scenario = &self.push.scenario;
         let robot = &scenario.robot;
         let base = Isometry2::new(Vector2::from(robot.base_m), robot.base_angle_rad);
-        let (gravity, tool) = (scenario.world.gravity_m_per_s2, &self.scenario.tool);
+        let (gravity, tool) = (scenario.world.gravity_m_per_s2, &self.push.tool);
         arm_with_tool(&self.scenario.arm, &robot.tool_frame, tool, &base, gravity, &robot.rotor_inertia_kg_m2)
             .map_err(broken)
     }
@@ -143,8 +162,8 @@ impl<'a> PushTask<'a> {
             goal_world: self.config.goal_m.into(),
             home_world: self.config.home_m.into(),
             park_world: self.config.park_m().into(),
-            object: &self.scenario.scenario.object.shape,
-            tool: &self.scenario.tool,
+            object: &self.push.scenario.object.shape,
+            tool: &self.push.tool,
             orientation: self.config.orientation,
             push_speed_m_per_s: self.config.push_speed_m_per_s,
             free_speed_m_per_s: self.config.free_speed_m_per_s,
@@ -154,11 +173,11 @@ impl<'a> PushTask<'a> {
     }
 
     fn controller(&self, joints: usize) -> Result<Box<dyn Controller>, StageError> {
-        self.scenario.scenario.controller.build(joints).map_err(|error| StageError::Input(error.to_string()))
+        self.push.scenario.controller.build(joints).map_err(|error| StageError::Input(error.to_string()))
     }
 
     fn reference_source<'p>(&'p self, checked: &'p Checked) -> Result<Box<dyn ReferenceSource + 'p>, StageError> {
-        let (scenario, plan) = (&self.scenario.scenario, &checked.plan);
+        let (scenario, plan) = (&self.push.scenario, &checked.plan);
         Ok(match scenario.execution.mode {
             ExecutionMode::OpenLoop => Box::new(OpenLoop::new(plan)),
             ExecutionMode::ClosedLoop => {
@@ -168,7 +187,7 @@ impl<'a> PushTask<'a> {
                     patience: PATIENCE,
                     hold_renewal: scenario.execution.hold_renewal.clone(),
                 };
-                let (tool, object, camera) = (&self.scenario.tool, &scenario.object, &scenario.camera);
+                let (tool, object, camera) = (&self.push.tool, &scenario.object, &scenario.camera);
                 let reach = ArmReach::new(&checked.model, &scenario.robot.tool_frame).map_err(broken)?;
                 let closed_loop = ClosedLoop::new(plan, tool, object, camera, config, self.period_s());
                 Box::new(closed_loop.renewing_holds(&scenario.world, &reach))
@@ -197,9 +216,9 @@ impl Task for PushTask<'_> {
     }
 
     fn learn(&self, shown: &Shown) -> Result<Learned, StageError> {
-        let scenario = &self.scenario.scenario;
-        let tool = &self.scenario.demonstration_tool;
-        if let Some(file) = &self.scenario.learned {
+        let scenario = &self.push.scenario;
+        let tool = &self.push.demonstration_tool;
+        if let Some(file) = &self.push.learned {
             let restored = file.skills.clone().restore(tool).map_err(|error| StageError::Broken(error.to_string()))?;
             let report = LearningReport { used: file.learned.demonstrations.clone(), ..LearningReport::default() };
             return Ok(Learned { library: restored, report });
@@ -211,13 +230,13 @@ impl Task for PushTask<'_> {
     }
 
     fn save(&self, skills: &Learned) -> Result<SkillsFile, StageError> {
-        let tool = &self.scenario.demonstration_tool;
-        let origin = match &self.scenario.learned {
+        let tool = &self.push.demonstration_tool;
+        let origin = match &self.push.learned {
             Some(file) => file.learned.clone(),
             None => Origin {
                 scenario: self.scenario.name.clone(),
                 seed: self.seed,
-                tool: self.scenario.demonstration_tool_name().to_owned(),
+                tool: self.push.demonstration_tool_name().to_owned(),
                 demonstrations: skills.report.used.clone(),
             },
         };
@@ -225,7 +244,7 @@ impl Task for PushTask<'_> {
     }
 
     fn plan(&self, skills: &Learned) -> Result<Checked, StageError> {
-        let scenario = &self.scenario.scenario;
+        let scenario = &self.push.scenario;
         let (camera, start_world) = self.look_first()?;
         let model = self.model()?;
         let (plan, transfer) = match &self.config.transfer {
@@ -235,22 +254,20 @@ impl Task for PushTask<'_> {
                 (transfer.plan.clone(), Some(transfer))
             }
         };
-        judge::check_plan(&plan, &self.scenario.tool, &scenario.object, &scenario.world)
-            .map_err(StageError::Infeasible)?;
+        judge::check_plan(&plan, &self.push.tool, &scenario.object, &scenario.world).map_err(StageError::Infeasible)?;
         let posture = check_reach(&plan, &model, &scenario.robot.tool_frame).map_err(infeasible)?;
         let controller = self.controller(model.joint_count())?;
         let mut workspace = model.workspace();
+        let flange = model.frame(&scenario.robot.tool_frame).map_err(|error| StageError::Input(error.to_string()))?;
         controller
             .check_stability(&mut workspace, &posture, self.period_s())
             .map_err(|error| StageError::Input(error.within("controller").to_string()))?;
-        let flange =
-            model.frame(&scenario.robot.tool_frame).map_err(|error| StageError::Input(error.to_string()))?;
         let controller_notes = controller.describe(&mut workspace, &posture, flange, self.period_s());
         Ok(Checked { plan, transfer, model, posture, camera, controller_notes })
     }
 
-    fn simulate(&self, checked: &Checked, observer: &mut dyn Observer) -> Result<Episode, StageError> {
-        let scenario = &self.scenario.scenario;
+    fn simulate(&self, checked: &Checked, observer: &mut dyn Onlooker) -> Result<Episode, StageError> {
+        let scenario = &self.push.scenario;
         let scene = self.scene_description(checked);
         let setup = PlanarSetup {
             world: &scenario.world,
@@ -278,9 +295,9 @@ impl Task for PushTask<'_> {
         let mut measures = judge::measures(self, &checked.plan, episode);
         if let Some(transfer) = &checked.transfer {
             measures.extend(transferring::measures(transfer));
-            notes.extend(transferring::notes(transfer, &self.scenario.tool));
+            notes.extend(transferring::notes(transfer, &self.push.tool));
         }
-        measures.extend(self.actual.measures(&self.scenario.scenario.variation));
+        measures.extend(self.actual.measures(&self.push.scenario.variation));
         measures.extend(judge::demonstration_measures(shown.failed.len(), &skills.report));
         let failures = episode.interruption.iter().cloned().collect();
         Outcome::judged(self.scenario, self.seed, measures, failures, notes, episode.digest.clone())
@@ -288,20 +305,6 @@ impl Task for PushTask<'_> {
 
     fn simulated_s(episode: &Episode) -> f64 {
         episode.duration_s()
-    }
-}
-
-fn broken(error: SimError) -> StageError {
-    match error {
-        SimError::Field(_) | SimError::Arm { .. } => StageError::Input(error.to_string()),
-        other => StageError::Broken(other.to_string()),
-    }
-}
-
-fn infeasible(error: SimError) -> StageError {
-    match error {
-        SimError::Unreachable { .. } => StageError::Infeasible(error.to_string()),
-        other => broken(other),
     }
 }
 

@@ -19,7 +19,7 @@ pub fn plan(
     start_world: Point2<f64>,
     model: &Manipulator,
 ) -> Result<Transfer, StageError> {
-    let scenario = &task.scenario.scenario;
+    let scenario = &task.push.scenario;
     let reach = ArmReach::new(model, &scenario.robot.tool_frame).map_err(broken)?;
     let obstacles: Vec<PlacedOutline> = scenario.world.obstacles.iter().map(|obstacle| obstacle.placed()).collect();
     let sides: Vec<Option<Side>> =
@@ -33,7 +33,7 @@ pub fn plan(
             tool_margin_m: config.planner.tool_margin_m,
             object: &scenario.object.shape,
             object_angle_rad: task.config.start_angle_rad,
-            tool: &task.scenario.tool,
+            tool: &task.push.tool,
             tool_angle_rad: config.tool_angle_rad,
             tool_passes: false,
             reach: &reach,

@@ -4,9 +4,8 @@ use nalgebra::{Isometry2, Vector2};
 use sim::planar::ObjectConfig;
 use skills::tool::Tool;
 
-use super::PushConfig;
+use super::{ResolvedPush, Variation, VariationConfig};
 use crate::outcome::Measure;
-use crate::scenario::{ResolvedScenario, Variation, VariationConfig};
 
 /// Object and tool as they are, not as planner and controller believe them to be.
 pub struct Actual {
@@ -20,17 +19,18 @@ pub struct Actual {
 }
 
 impl Actual {
-    /// What is there in the run of `scenario` with `seed`.
-    pub fn new(scenario: &ResolvedScenario, config: &PushConfig, seed: u64) -> Self {
-        let drawn = scenario.scenario.variation.draw(seed);
-        let mut object = scenario.scenario.object.clone();
+    /// What is there in the run of a scenario with `seed`.
+    pub fn new(push: &ResolvedPush, seed: u64) -> Self {
+        let drawn = push.scenario.variation.draw(seed);
+        let mut object = push.scenario.object.clone();
         object.mass_kg *= drawn.mass;
         object.table_friction *= drawn.table_friction;
-        let mut tool = scenario.tool.clone();
+        let mut tool = push.tool.clone();
         tool.friction *= drawn.tool_friction;
         for friction in tool.surfaces.iter_mut().filter_map(|surface| surface.friction.as_mut()) {
             *friction *= drawn.tool_friction;
         }
+        let config = push.scenario.push();
         let start = Vector2::from(config.start_m) + Vector2::from(drawn.start_m);
         Self { object, world_from_object: Isometry2::new(start, config.start_angle_rad), tool, drawn }
     }

@@ -1,0 +1,86 @@
+//! Sections that scenario files of several kinds of tasks share.
+
+use serde::{Deserialize, Serialize};
+use sim::controllers::ControllerConfig;
+
+use super::ArmKeys;
+
+/// Name, title, description and seed of a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Header {
+    /// Name in results and of their folder: letters, digits, `_` and `-`; the file's name without its ending if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// One line for lists and tables.
+    pub title: String,
+    /// A paragraph for the recording and for readers.
+    #[serde(default)]
+    pub description: String,
+    /// All randomness of a run comes from here.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+}
+
+fn default_seed() -> u64 {
+    1
+}
+
+/// The tool in the hand.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToolConfig {
+    /// Name of a file in `assets/tools`, without its ending.
+    pub asset: String,
+}
+
+/// The arm that holds the tool, on a base in the plane.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotConfig {
+    /// Name of a URDF file in `assets/robots`, without its ending.
+    pub asset: String,
+    /// Position of the arm's base in the world, m.
+    #[serde(default)]
+    pub base_m: [f64; 2],
+    /// Rotation of the arm's base in the world, rad.
+    #[serde(default)]
+    pub base_angle_rad: f64,
+    /// Rotor inertia felt at each joint, kg m²; one number per joint, or none for a bare arm.
+    #[serde(default)]
+    pub rotor_inertia_kg_m2: Vec<f64>,
+    /// Frame of the arm that grips the tool.
+    #[serde(default = "default_tool_frame")]
+    pub tool_frame: String,
+}
+
+impl RobotConfig {
+    /// What is said about the arm, together with its controller.
+    pub(crate) fn keys<'a>(&'a self, controller: &'a ControllerConfig) -> ArmKeys<'a> {
+        ArmKeys {
+            asset: &self.asset,
+            rotor_inertia_kg_m2: &self.rotor_inertia_kg_m2,
+            tool_frame: &self.tool_frame,
+            controller,
+            spatial: None,
+        }
+    }
+}
+
+fn default_tool_frame() -> String {
+    "flange".into()
+}
+
+/// What the recording holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RecordingConfig {
+    /// Samples per simulated second in the recording, Hz.
+    pub rate_hz: f64,
+}
+
+impl Default for RecordingConfig {
+    fn default() -> Self {
+        Self { rate_hz: 100.0 }
+    }
+}

@@ -1,0 +1,336 @@
+//! Sections of a cutting scenario: food, knife, board, demonstrations, how the plan is carried out, when it counts as done.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use serde::{Deserialize, Serialize};
+use sim::cutting::food::{FoodFile, FoodSample};
+use sim::cutting::mechanics::Thresholds;
+use sim::cutting::scene::CuttingBoard;
+use skills::cutting::CutHuman;
+use skills::field::{FieldError, finite, not_negative, positive, within};
+
+/// What is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoodConfig {
+    /// Name of a file in `assets/foods`, without its ending.
+    pub asset: String,
+    /// Factor on all its lengths.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Toughness, J/m²; the file's if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub toughness_j_per_m2: Option<f64>,
+    /// Shear stress between the flanks of the blade and the food, Pa; the file's if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flank_shear_pa: Option<f64>,
+    /// Coefficient of friction on the board; the file's if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub board_friction: Option<f64>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl FoodConfig {
+    /// The food that the file and these changes state.
+    #[must_use]
+    pub fn changed(&self, file: &FoodFile) -> FoodFile {
+        let mut food = file.clone();
+        let material = &mut food.material;
+        let set = |value: &mut f64, changed: Option<f64>| *value = changed.unwrap_or(*value);
+        set(&mut material.toughness_j_per_m2, self.toughness_j_per_m2);
+        set(&mut material.flank_shear_pa, self.flank_shear_pa);
+        set(&mut material.board_friction, self.board_friction);
+        // what the scenario states lies in the range that specimens come from
+        if let Some([low, high]) = &mut food.range.toughness_j_per_m2 {
+            *low = low.min(food.material.toughness_j_per_m2);
+            *high = high.max(food.material.toughness_j_per_m2);
+        }
+        food
+    }
+
+    /// Checks the numbers on their own.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        let toughness_j_per_m2 = self.toughness_j_per_m2.unwrap_or(1.0);
+        FoodSample { scale: self.scale, toughness_j_per_m2 }.validate()?;
+        self.flank_shear_pa.map_or(Ok(()), |shear| not_negative("flank_shear_pa", shear))?;
+        self.board_friction.map_or(Ok(()), |friction| within("board_friction", friction, 0.0, 2.0))
+    }
+}
+
+/// What it is cut with, and how the hand holds it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KnifeConfig {
+    /// Name of a file in `assets/knives`, without its ending.
+    pub asset: String,
+    /// Where the middle of the handle is in the gripping frame of the arm, m.
+    #[serde(default)]
+    pub grip_m: [f64; 3],
+    /// How the knife is turned in that frame: roll, pitch, yaw about its axes x, y, z, in this order, rad. By default the
+    /// cutting direction is the approach axis z of the hand, and the tip points along its x axis.
+    #[serde(default = "default_grip_rpy_rad")]
+    pub grip_rpy_rad: [f64; 3],
+}
+
+fn default_grip_rpy_rad() -> [f64; 3] {
+    [FRAC_PI_2, 0.0, 0.0]
+}
+
+impl KnifeConfig {
+    /// Pose of the knife's grip in the gripping frame of the arm.
+    #[must_use]
+    pub fn hand_from_grip(&self) -> Isometry3<f64> {
+        let [roll, pitch, yaw] = self.grip_rpy_rad;
+        let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        Isometry3::from_parts(Translation3::from(nalgebra::Vector3::from(self.grip_m)), turn)
+    }
+
+    /// Checks the numbers on their own.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        finite("grip_m", &self.grip_m)?;
+        finite("grip_rpy_rad", &self.grip_rpy_rad)
+    }
+}
+
+/// What it is cut on: a cuboid that never moves, its edges along the world's axes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoardConfig {
+    /// Middle of its upper side, world frame, m.
+    pub center_m: [f64; 3],
+    /// Full lengths along x, y and z, m.
+    #[serde(default = "default_size_m")]
+    pub size_m: [f64; 3],
+    /// Coefficient of friction of the knife on the board, and the most that any food has on it.
+    #[serde(default = "default_friction")]
+    pub friction: f64,
+}
+
+/// A small kitchen board.
+fn default_size_m() -> [f64; 3] {
+    [0.24, 0.34, 0.02]
+}
+
+/// Estimate: steel and moist food on plastic.
+fn default_friction() -> f64 {
+    0.4
+}
+
+/// Longest board and farthest place, m.
+const FARTHEST_M: f64 = 10.0;
+
+impl BoardConfig {
+    /// Height of its upper side, m.
+    #[must_use]
+    pub fn top_m(&self) -> f64 {
+        self.center_m[2]
+    }
+
+    /// The board as the scene has it.
+    #[must_use]
+    pub fn board(&self) -> CuttingBoard {
+        let [x, y, z] = self.center_m;
+        CuttingBoard {
+            world_from_board: Isometry3::translation(x, y, z),
+            half_extents_m: self.size_m.map(|length| 0.5 * length),
+            friction: self.friction,
+        }
+    }
+
+    /// Checks the numbers on their own.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending value.
+    pub fn validate(&self) -> Result<(), FieldError> {
+        self.center_m.iter().try_for_each(|value| within("center_m", *value, -FARTHEST_M, FARTHEST_M))?;
+        self.size_m.iter().try_for_each(|length| within("size_m", *length, 0.002, 4.0))?;
+        within("friction", self.friction, 0.0, 2.0)
+    }
+}
+
+/// Where the demonstration of one cut comes from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum DemonstrationsConfig {
+    /// A synthetic human shows one cut.
+    Synthetic(SyntheticConfig),
+    /// A recorded cut.
+    Recorded(RecordedConfig),
+}
+
+/// One cut of a synthetic human, on the scenario's board.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SyntheticConfig {
+    /// Food that the human cuts: a file in `assets/foods`; the scenario's food if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub food: Option<String>,
+    /// Knife that the human holds: a file in `assets/knives`; the scenario's knife if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub knife: Option<String>,
+    /// Place of the cut, as a share of the food's length.
+    pub at_share: f64,
+    /// The human.
+    pub human: CutHuman,
+}
+
+/// A recorded cut, and where and with what it was shown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecordedConfig {
+    /// Name of a file in `assets/demonstrations`, without its ending: poses of the knife.
+    pub asset: String,
+    /// Food that was cut: a file in `assets/foods`; the scenario's food if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub food: Option<String>,
+    /// Knife that was held: a file in `assets/knives`; the scenario's knife if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub knife: Option<String>,
+    /// Where the origin of the food's frame was on the board, x and y, m.
+    pub food_at_m: [f64; 2],
+    /// Turn of the food about the vertical, rad.
+    pub food_angle_rad: f64,
+    /// Height of the board's upper side, m.
+    pub board_top_m: f64,
+    /// Place of the cut, as a share of the food's length.
+    #[serde(default = "middle")]
+    pub at_share: f64,
+}
+
+/// The middle of a food.
+fn middle() -> f64 {
+    0.5
+}
+
+impl Default for SyntheticConfig {
+    fn default() -> Self {
+        Self { food: None, knife: None, at_share: middle(), human: CutHuman::default() }
+    }
+}
+
+impl DemonstrationsConfig {
+    /// Names of the food and the knife that were shown, if they are not the scenario's: keys and values.
+    pub(super) fn names(&self) -> [(&'static str, Option<&str>); 2] {
+        match self {
+            Self::Synthetic(synthetic) => [
+                ("demonstrations.synthetic.food", synthetic.food.as_deref()),
+                ("demonstrations.synthetic.knife", synthetic.knife.as_deref()),
+            ],
+            Self::Recorded(recorded) => [
+                ("demonstrations.recorded.food", recorded.food.as_deref()),
+                ("demonstrations.recorded.knife", recorded.knife.as_deref()),
+            ],
+        }
+    }
+
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending one.
+    pub(super) fn validate(&self) -> Result<(), FieldError> {
+        match self {
+            Self::Synthetic(synthetic) => synthetic.validate().map_err(|error| error.within("synthetic")),
+            Self::Recorded(recorded) => recorded.validate().map_err(|error| error.within("recorded")),
+        }
+    }
+}
+
+/// A cut nearer to an end than this shows the cut of a rounding, as a share of the length.
+const SHOWN_SHARES: [f64; 2] = [0.05, 0.95];
+
+impl SyntheticConfig {
+    fn validate(&self) -> Result<(), FieldError> {
+        within("at_share", self.at_share, SHOWN_SHARES[0], SHOWN_SHARES[1])?;
+        self.human.validate().map_err(|error| error.within("human"))
+    }
+}
+
+impl RecordedConfig {
+    fn validate(&self) -> Result<(), FieldError> {
+        finite("food_at_m", &self.food_at_m)?;
+        finite("food_angle_rad", &[self.food_angle_rad])?;
+        finite("board_top_m", &[self.board_top_m])?;
+        within("at_share", self.at_share, SHOWN_SHARES[0], SHOWN_SHARES[1])
+    }
+}
+
+/// How the demonstrated cut is made one of other foods.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SkillKind {
+    /// The section constrains the knife: the stroke runs in its plane, and its corridor is certified.
+    #[default]
+    Constrained,
+    /// A pose primitive of the whole demonstration, noise and all: the baseline.
+    PlainDmp,
+}
+
+/// How the plan is made and carried out.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ExecutionConfig {
+    /// What is learned of the demonstration.
+    pub skill: SkillKind,
+    /// Whether the arm is told what force the food is expected to exert, by the toughness that the scenario states.
+    pub expects_cutting_force: bool,
+}
+
+impl Default for ExecutionConfig {
+    fn default() -> Self {
+        Self { skill: SkillKind::default(), expects_cutting_force: true }
+    }
+}
+
+/// When the task counts as done.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Limits {
+    /// Largest root mean square error of the pieces' lengths, m.
+    pub thickness_error_rms_m: f64,
+    /// Largest share of mass that may be lost or won by cutting.
+    pub mass_error_share: f64,
+    /// Largest mean deviation Ra of any cut face, m; any if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean_deviation_m: Option<f64>,
+    /// Largest tilt of any cut face from the wanted plane, rad; any if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tilt_rad: Option<f64>,
+    /// What counts as a failed cut.
+    pub failing: Thresholds,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            thickness_error_rms_m: 0.002,
+            mass_error_share: 1e-6,
+            mean_deviation_m: None,
+            tilt_rad: None,
+            failing: Thresholds::default(),
+        }
+    }
+}
+
+impl Limits {
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending one.
+    pub(super) fn validate(&self) -> Result<(), FieldError> {
+        positive("thickness_error_rms_m", self.thickness_error_rms_m)?;
+        positive("mass_error_share", self.mass_error_share)?;
+        self.mean_deviation_m.map_or(Ok(()), |deviation_m| positive("mean_deviation_m", deviation_m))?;
+        self.tilt_rad.map_or(Ok(()), |tilt_rad| positive("tilt_rad", tilt_rad))?;
+        self.failing.validate().map_err(|error| error.within("failing"))
+    }
+}

@@ -1,0 +1,168 @@
+//! The scenario file of pouring.
+
+use serde::{Deserialize, Serialize};
+use sim::controllers::ControllerConfig;
+use sim::pouring::{MonitorConfig, TableConfig};
+use skills::field::FieldError;
+use skills::pouring::PourLearning;
+
+use super::config::{GrainsConfig, PourConfig, PourDemonstrations, PourLimits, SourceConfig, TargetConfig};
+use super::engine::PourEngineConfig;
+use super::variation::PourVariation;
+use super::vessel::Vessel;
+use super::{KIND, PourTask};
+use crate::scenario::{ArmKeys, Header, ReadScenario, Reader, RecordingConfig, ResolvedScenario, ScenarioFile};
+use crate::tasks::spatial::SpatialRobotConfig;
+use crate::tasks::{ResolvedTask, Runnable, TaskPart, written};
+
+/// One pouring experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PourScenario {
+    /// Name, title, description and seed.
+    pub scenario: Header,
+    /// The arm.
+    pub robot: SpatialRobotConfig,
+    /// What turns tracking errors into joint torques.
+    pub controller: ControllerConfig,
+    /// What is poured.
+    pub grains: GrainsConfig,
+    /// What is poured from.
+    pub source: SourceConfig,
+    /// What is poured into.
+    pub target: TargetConfig,
+    /// The table.
+    #[serde(default)]
+    pub table: TableConfig,
+    /// What is to be done.
+    pub task: PourTable,
+    /// Where the skill comes from.
+    pub demonstrations: PourDemonstrations,
+    /// How it is learned.
+    #[serde(default)]
+    pub learning: PourLearning,
+    /// What counts as spilt, as a clog.
+    #[serde(default)]
+    pub monitor: MonitorConfig,
+    /// Time steps and contact solver.
+    #[serde(default)]
+    pub engine: PourEngineConfig,
+    /// What a run differs in.
+    #[serde(default)]
+    pub variation: PourVariation,
+    /// When the task counts as done.
+    #[serde(default)]
+    pub limits: PourLimits,
+    /// What the recording holds.
+    #[serde(default)]
+    pub recording: RecordingConfig,
+}
+
+/// The table `task`, whose only key names the kind.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum PourTable {
+    /// Pour grains from the held cup into a container.
+    Pour(PourConfig),
+}
+
+impl PourScenario {
+    /// What is to be done.
+    #[must_use]
+    pub fn pour(&self) -> &PourConfig {
+        let PourTable::Pour(pour) = &self.task;
+        pour
+    }
+}
+
+impl ScenarioFile for PourScenario {
+    fn header(&self) -> &Header {
+        &self.scenario
+    }
+
+    fn header_mut(&mut self) -> &mut Header {
+        &mut self.scenario
+    }
+
+    fn arm(&self) -> ArmKeys<'_> {
+        self.robot.keys(&self.controller)
+    }
+
+    fn recording(&self) -> &RecordingConfig {
+        &self.recording
+    }
+
+    fn refused_values(&self) -> Vec<FieldError> {
+        let parts = [
+            ("scenario", self.scenario.validate()),
+            ("robot", self.robot.validate()),
+            ("grains", self.grains.validate()),
+            ("source.grip", self.source.grip.validate()),
+            ("target", skills::field::finite("place_m", &self.target.place_m)),
+            ("table", self.table.validate()),
+            ("task.pour", self.pour().validate()),
+            ("demonstrations", self.demonstrations.validate()),
+            ("learning", self.learning.validate()),
+            ("monitor", self.monitor.validate()),
+            ("engine", self.engine.validate()),
+            ("variation", self.variation.validate()),
+            ("limits", self.limits.validate()),
+            ("recording", self.recording.validate()),
+        ];
+        parts.into_iter().filter_map(|(part, result)| Some(result.err()?.within(part))).collect()
+    }
+}
+
+/// What a checked scenario of pouring holds.
+#[derive(Clone, Debug)]
+pub struct ResolvedPour {
+    /// The scenario with all defaults filled in, the name too.
+    pub scenario: PourScenario,
+    /// What is poured from.
+    pub source: Vessel,
+    /// What is poured into.
+    pub target: Vessel,
+    /// What the skill was shown with.
+    pub shown_source: Vessel,
+    /// What it was shown to be poured into.
+    pub shown_target: Vessel,
+}
+
+impl ReadScenario for PourScenario {
+    fn resolve(self, reader: &mut Reader<'_>, _refused: &[FieldError]) -> Option<ResolvedTask> {
+        let source: Option<Vessel> = reader.asset("source.asset", &self.source.asset);
+        let target = reader.asset("target.asset", &self.target.asset);
+        let PourDemonstrations::Synthetic(shown) = &self.demonstrations;
+        let shown_source = match &shown.source {
+            Some(name) => reader.asset("demonstrations.synthetic.source", name),
+            None => source.clone(),
+        };
+        let shown_target = reader.asset("demonstrations.synthetic.target", &shown.target);
+        let pour = ResolvedPour {
+            source: source?,
+            target: target?,
+            shown_source: shown_source?,
+            shown_target: shown_target?,
+            scenario: self,
+        };
+        Some(ResolvedTask::Pour(Box::new(pour)))
+    }
+}
+
+impl TaskPart for ResolvedPour {
+    fn kind(&self) -> &'static str {
+        KIND.name
+    }
+
+    fn file(&self) -> &dyn ScenarioFile {
+        &self.scenario
+    }
+
+    fn text(&self, seed: u64) -> Result<String, String> {
+        written(&self.scenario, seed)
+    }
+
+    fn start<'a>(&'a self, scenario: &'a ResolvedScenario, seed: u64) -> Box<dyn Runnable + 'a> {
+        Box::new(PourTask::new(scenario, self, seed))
+    }
+}
