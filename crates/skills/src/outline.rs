@@ -17,7 +17,7 @@ pub use distance::separation_m;
 use crate::field::{FieldError, finite, positive};
 
 /// A convex outline in the frame of the thing that it bounds, meters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Outline {
     /// A disc about the origin.
@@ -99,7 +99,7 @@ impl Outline {
 }
 
 /// An outline at a fixed pose in a larger frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedOutline {
     /// The outline in its own frame.

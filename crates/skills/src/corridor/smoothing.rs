@@ -16,7 +16,7 @@ use crate::trajectory::{check_finite, check_times};
 const SAME_KNOT: f64 = 1e-9;
 
 /// Options of the smoothing.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SmoothingConfig {
     /// Half-width h of the window, s: a jump of a bound becomes a minimum-jerk step of duration 2h that ends before the

@@ -16,7 +16,7 @@ const INSET: f64 = 1e-3;
 const NOMINAL_RATIO: f64 = 0.5;
 
 /// How the conditions are put to a sampled motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum EcbfForm {
     /// ψ⁺ ≥ (1 − c₂h)ψ of the next sample, and the next position inside, which has priority (default).
@@ -31,7 +31,7 @@ pub enum EcbfForm {
 ///
 /// In continuous time it keeps inside from any start with ψ = ḣ + c₁h ≥ 0, if Ẅ + (c₁ + c₂)Ẇ + c₁c₂W ≥ 0. The rates are
 /// lowered to c₁ ≤ 2/h and c₂ ≤ 1/h for the sampled form with step h.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ecbf {
     /// How the conditions are put to a sampled motion.

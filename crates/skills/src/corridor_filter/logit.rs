@@ -24,7 +24,7 @@ const LARGEST_EXPONENT: f64 = 700.0;
 ///
 /// m is `margin`, or 9/10 of the distance of start and goal from the bounds if they lie closer, for the whole motion: one
 /// end close to a bound lets the motion go closer everywhere. A goal outside the corridor is not reached.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Logit {
     /// Largest margin m as a part of the width, above 0 and below 0.5; 0.3 by default. A smaller one stays with the skill

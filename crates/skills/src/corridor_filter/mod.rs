@@ -77,7 +77,7 @@ pub trait AxisLaw: fmt::Debug + Send + Sync {
 }
 
 /// Kinds of corridor filter, as a table in a file: `corridor_filter.logit.margin = 0.15`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CorridorFilterConfig {
     /// Constrained primitive in the logit of the place in the corridor (default).

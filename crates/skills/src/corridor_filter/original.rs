@@ -22,7 +22,7 @@ use crate::time_law::PathState;
 /// the bounds by the smooth saturation [`SmoothSaturation`]. In continuous time the barrier keeps z₁ in (−k_a, k_b);
 /// integrated by semi-implicit Euler steps, nothing does. Outside the barrier term is dropped, so that the motion
 /// comes back and is reported.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OriginalReconstruction {
     /// k₁ > 0, without unit; 10 by default.

@@ -13,7 +13,7 @@ use crate::time_law::PathState;
 ///
 /// The paper does not say how it integrates: here semi-implicit Euler steps, velocity first, as usual for (29). A step
 /// diverges from K·h/τ = 2 on.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
     /// k_n > 0 of Eq. (31), per s and squared unit of the skill; 1 by default.

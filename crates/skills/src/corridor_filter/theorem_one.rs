@@ -16,7 +16,7 @@ const SOLVED: f64 = 1e-13;
 const MOST_ITERATIONS: usize = 80;
 
 /// How the law of Theorem 1 is integrated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Integration {
     /// In η = atanh ζ, ζ = 2(x − M)/W, by implicit steps: inside for every step (default).
@@ -35,7 +35,7 @@ pub enum Integration {
 ///
 /// Like the printed law it leads to the middle M of the corridor. It does not even see the skill: −k_λz₁ and (h̄ + h̲)/2
 /// in λ leave M alone.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TheoremOne {
     /// How the law is integrated.

@@ -11,7 +11,7 @@ use crate::error::SkillError;
 use crate::field::{FieldError, positive};
 
 /// Options of Eq. (20): the "small enough values" that replace a divisor of zero.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AsPublished {
     /// σ1, in place of Δx1 = 0, unit of the positions squared; 1e-6 by default.

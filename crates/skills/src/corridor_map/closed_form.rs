@@ -72,7 +72,7 @@ impl CorridorMap for NormalForm {
 ///
 /// Between equal widths the steepness is at least 4; a great one squeezes most of the corridor into a small part of
 /// x^u.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ClosedForm {
     /// Least steepness, without unit; 1 by default.

@@ -10,7 +10,7 @@ use crate::error::SkillError;
 use crate::field::{FieldError, within};
 
 /// Options of the M-form.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MForm {
     /// Strength S of the logit in widths of the corridor, 0.001 to 1; 1/4 by default, which has slope one in the

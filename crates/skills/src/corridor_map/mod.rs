@@ -63,7 +63,7 @@ pub struct SelectedMap {
 }
 
 /// Kinds of map, as a table in a file: `map.proximal.strength = 0.05` or `map.closed_form = {}`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CorridorMapConfig {
     /// x plus a log-barrier correction: close to the identity away from the bounds (default).

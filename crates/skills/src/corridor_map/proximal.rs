@@ -10,7 +10,7 @@ use crate::error::SkillError;
 use crate::field::{FieldError, within};
 
 /// Options of the proximal map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Proximal {
     /// Strength S of the correction in widths of the corridor, 0.001 to 1; 0.05 by default.

@@ -1,6 +1,7 @@
 //! A demonstrated cut seen from its section: three coordinates in it, three across it, and its phases.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
 use super::refusal::CutError;
 use super::section::{Blade, Section};
@@ -18,7 +19,8 @@ pub struct CutDemonstration {
 }
 
 /// What the knife did across the section while it cut: noise about the constraint.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct OutOfPlane {
     /// Root mean square distance of the tool's origin from the section, m.
     pub lateral_m: f64,

@@ -15,7 +15,7 @@ use crate::spatial::{
 };
 
 /// How a human cuts.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CutHuman {
     /// The hand that holds the knife.

@@ -1,11 +1,12 @@
 //! Learning a cut from one demonstration: the stroke without its section, Eqs. (16) to (21), and the plain primitive of the
 //! whole, to compare with.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Isometry3};
 use serde::{Deserialize, Serialize};
 
 use super::demonstration::{CutDemonstration, OutOfPlane, Row};
 use super::refusal::CutError;
+use super::section::Section;
 use crate::corridor::{Bounds, Corridor};
 use crate::field::{FieldError, positive};
 use crate::primitive::pose::PoseDmp;
@@ -14,7 +15,7 @@ use crate::separation::constraint_based::{ConstrainedDemonstration, ConstraintBa
 use crate::trajectory::Trajectory;
 
 /// Options of learning a cut.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CutLearning {
     /// Separation of the stroke from its corridor. By default 15 bases: what is faster than some seven cycles in a stroke
@@ -54,7 +55,8 @@ impl CutLearning {
 }
 
 /// What a demonstrated stroke was like.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct ShownStroke {
     /// Duration of the stroke, s.
     pub duration_s: f64,
@@ -86,7 +88,28 @@ pub struct CutSkill {
     pub(super) stroke: ConstraintBased,
     pub(super) shown: ShownStroke,
     pub(super) plain: PoseDmp,
-    pub(super) demonstration: CutDemonstration,
+    pub(super) whole: ShownWhole,
+}
+
+/// Where the whole demonstration was shown: what the plain primitive is moved from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShownWhole {
+    /// The section that was cut.
+    pub section: Section,
+    /// First and last pose of the knife, `world_from_tool`.
+    pub ends: [Isometry3<f64>; 2],
+    /// Duration of all of it, s.
+    pub duration_s: f64,
+}
+
+impl ShownWhole {
+    fn of(shown: &CutDemonstration) -> Result<Self, CutError> {
+        let (Some(first), Some(last)) = (shown.knife.poses().first(), shown.knife.poses().last()) else {
+            return Err(CutError::Phase { phase: "cut" });
+        };
+        Ok(Self { section: shown.section, ends: [*first, *last], duration_s: shown.knife.duration_s() })
+    }
 }
 
 /// Distance past the board that a demonstration may reach: a hand does not feel less, m.
@@ -95,6 +118,8 @@ const SHOWN_PAST_BOARD_M: f64 = 0.003;
 const BOARD_ROOM_M: f64 = 0.0003;
 /// Largest rocking that a demonstration may show, rad.
 pub(super) const LARGEST_ROCK_RAD: f64 = 0.8;
+/// Coordinates of a stroke: draw, depth, rocking.
+pub(super) const COORDINATES: usize = 3;
 /// Noise of the angle for the separation, rad.
 const ROCK_NOISE_RAD: f64 = 0.02;
 
@@ -129,7 +154,7 @@ impl CutSkill {
             stroke: separated(config, shown, stroke, &described)?,
             shown: described,
             plain: PoseDmp::learn(&config.plain, std::slice::from_ref(&shown.knife))?,
-            demonstration: shown.clone(),
+            whole: ShownWhole::of(shown)?,
         })
     }
 
@@ -159,7 +184,7 @@ fn separated(
     };
     let middle_m = 0.5 * (begin.draw_m + end.draw_m);
     let rocks = f64::from(u8::from(described.rock_rad != 0.0));
-    let samples = DMatrix::from_fn(stroke.len(), 3, |row, coordinate| match (stroke.get(row), coordinate) {
+    let samples = DMatrix::from_fn(stroke.len(), COORDINATES, |row, coordinate| match (stroke.get(row), coordinate) {
         (Some(row), 0) => (row.draw_m - middle_m) / travel_m,
         (Some(row), 1) => (row.depth_m - begin.depth_m) / travel_m,
         (Some(row), _) => rocks * (row.rock_rad - end.rock_rad),
@@ -185,7 +210,7 @@ fn separated(
 /// Corridor of draw and depth, over the depth of the stroke, and of rocking, rad.
 pub(super) fn stroke_corridor(draw: [f64; 2], depth: [f64; 2], rock_rad: f64) -> Result<Corridor, CutError> {
     let bounds = [draw, depth, [-rock_rad, rock_rad]];
-    Ok(Corridor::sampled(vec![0.0, 1.0], 3, |_, coordinate| {
+    Ok(Corridor::sampled(vec![0.0, 1.0], COORDINATES, |_, coordinate| {
         let [lower, upper] = bounds.get(coordinate).copied().unwrap_or_default();
         Bounds::still(lower, upper)
     })?)

@@ -9,7 +9,7 @@ use crate::field::{FieldError, finite, not_negative, positive, within};
 use crate::spatial::FreeMoveConfig;
 
 /// How the edge moves through the food.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Stroke {
     /// With the slice–push ratio and the rocking of the demonstration (default).
@@ -30,7 +30,7 @@ pub enum Stroke {
 }
 
 /// Options of a cut.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CutOptions {
     /// Kind of stroke.

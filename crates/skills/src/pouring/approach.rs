@@ -13,6 +13,8 @@ use crate::spatial::{SpatialKnot, SpatialMotion, SpatialTrack, resting};
 use crate::time_law::PathState;
 use crate::trajectory::Trajectory;
 
+/// Coordinates of an approach: place along, across and above its way, and tilt.
+pub(super) const COORDINATES: usize = 4;
 /// Time between the knots, s.
 const STEP_S: f64 = 0.01;
 /// Shortest approach, m.
@@ -37,7 +39,7 @@ pub(super) fn learn(config: &ConstraintBasedConfig, rows: &[Row]) -> Result<(Con
         return Err(PourError::TooNear { distance_m: 0.0, least_m: LEAST_WAY_M });
     };
     let (turn, way_m) = level_way(&first.place_m, &last.place_m)?;
-    let samples = DMatrix::from_fn(rows.len(), 4, |row, k| {
+    let samples = DMatrix::from_fn(rows.len(), COORDINATES, |row, k| {
         let row = rows.get(row).unwrap_or(last);
         let place = turn.inverse() * (row.place_m - first.place_m);
         if k < 3 { place[k] / way_m } else { row.tilt_rad }

@@ -19,11 +19,13 @@ pub struct Container {
     pub wall_m: f64,
     /// Length by which a spout stands out from the rim, m; 0 without.
     pub spout_m: f64,
+    /// Width of the spout's end, m; of no account without one.
+    pub spout_width_m: f64,
 }
 
 impl Default for Container {
     fn default() -> Self {
-        Self { radius_m: 0.038, height_m: 0.09, wall_m: 0.003, spout_m: 0.0 }
+        Self { radius_m: 0.038, height_m: 0.09, wall_m: 0.003, spout_m: 0.0, spout_width_m: 0.02 }
     }
 }
 
@@ -61,6 +63,7 @@ impl Container {
         positive("height_m", self.height_m)?;
         positive("wall_m", self.wall_m)?;
         not_negative("spout_m", self.spout_m)?;
+        positive("spout_width_m", self.spout_width_m)?;
         if self.wall_m >= self.radius_m {
             return Err(FieldError::new("wall_m", self.wall_m, format!("less than radius_m = {}", self.radius_m)));
         }
@@ -214,7 +217,7 @@ mod tests {
     #[test]
     fn onset_of_a_half_full_cup_is_known_by_hand() {
         // R 35 and H 90 inside, h 45: atan(45/35) = 52.1 degrees and the slope at which beans hold
-        let cup = Container { radius_m: 0.038, height_m: 0.093, wall_m: 0.003, spout_m: 0.0 };
+        let cup = Container { radius_m: 0.038, height_m: 0.093, wall_m: 0.003, ..Container::default() };
         let onset = cup.onset_rad(0.045, 30_f64.to_radians());
         assert!((onset.to_degrees() - (30.0 + 52.125)).abs() < 0.01, "{}", onset.to_degrees());
     }

@@ -8,14 +8,14 @@ use super::container::{Container, Mouth};
 use super::demonstration::PourDemonstration;
 use super::planning::resting_at;
 use super::refusal::PourError;
-use super::task::{Fill, PourOptions, PourTask};
+use super::task::{Fill, PourAim, PourOptions, PourTask};
 use super::tilting::{LipTask, transfer};
 use crate::field::{FieldError, positive, within};
 use crate::spatial::{ActionPhase, FreeMoveConfig, Hand, HandConfig, SpatialAction, SpatialPlan, free_move};
 use crate::time_law::PathState;
 
 /// How a human pours.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PourHuman {
     /// The hand that holds the cup.
@@ -76,7 +76,7 @@ impl PourHuman {
         random: ChaCha8Rng,
     ) -> Result<PourDemonstration, PourError> {
         self.validate()?;
-        let options = PourOptions { gap_m: self.gap_m, ..PourOptions::default() };
+        let options = PourOptions { gap_m: self.gap_m, aim: PourAim::Shown, ..PourOptions::default() };
         let task = PourTask { fill: self.fill, options, ..PourTask::new(*start, *source, *mouth) };
         task.validate()?;
         let mut hand = Hand::new(self.hand.clone(), random)?;

@@ -14,7 +14,7 @@ use crate::separation::constraint_based::{ConstraintBased, ConstraintBasedConfig
 use crate::trajectory::Trajectory;
 
 /// Options of learning a pour.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PourLearning {
     /// Separation of the approach from its corridor; 12 bases by default, to leave the hand's noise out.
@@ -61,10 +61,19 @@ pub struct PourSkill {
     /// Place of the lip at the end, in radii of the mouth.
     pub(super) over: f64,
     pub(super) plain: PoseDmp,
-    pub(super) shown: PourDemonstration,
-    /// First pose and that of the greatest tilt, `world_from_cup`, and the time between them, s.
-    pub(super) ends: [Isometry3<f64>; 2],
-    pub(super) duration_s: f64,
+    pub(super) whole: ShownPour,
+}
+
+/// Where the demonstration was shown, up to its greatest tilt: what the plain primitive is moved from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShownPour {
+    /// Frame of pouring: origin in the middle of the mouth, z up, x in the direction of pouring.
+    pub world_from_pour: Isometry3<f64>,
+    /// Pose of the greatest tilt, `world_from_cup`.
+    pub steepest: Isometry3<f64>,
+    /// Time until then, s.
+    pub duration_s: f64,
 }
 
 /// Rows of the tilt over its angle; the grid of the virtual movement.
@@ -84,7 +93,7 @@ impl PourSkill {
         let phases = PourDemonstration::phases(&rows)?;
         let (approach, _) = approach::learn(&config.approach, &rows[..=phases.tilt])?;
         let tilt = over_the_tilt(&rows[phases.tilt..=phases.end]);
-        let [first, last] = [0, phases.end].map(|row| shown.cup.poses()[row]);
+        let steepest = shown.cup.poses()[phases.end];
         let whole = PoseTrajectory::new(
             shown.cup.times_s()[..=phases.end].to_vec(),
             shown.cup.poses()[..=phases.end].to_vec(),
@@ -94,9 +103,11 @@ impl PourSkill {
             tilt: own_way(config, shown, &tilt)?,
             over: tilt.last().map_or(0.0, |(x, _, _)| x / shown.mouth.radius_m),
             plain: PoseDmp::learn(&config.plain, std::slice::from_ref(&whole))?,
-            shown: shown.clone(),
-            ends: [first, last],
-            duration_s: whole.duration_s(),
+            whole: ShownPour {
+                world_from_pour: shown.mouth.world_from_pour(shown.direction_rad()),
+                steepest,
+                duration_s: whole.duration_s(),
+            },
         })
     }
 

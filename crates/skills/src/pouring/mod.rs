@@ -37,17 +37,22 @@ mod learning;
 mod plain;
 mod planning;
 mod refusal;
+mod saved;
+mod steering;
+mod stream;
 mod task;
 mod tilting;
 
-pub use amount::{AmountStop, PourCommand};
+pub use amount::{AmountControl, AmountOptions, TiltCommand};
 pub use container::{Container, Mouth, Shoulder};
 pub use demonstration::PourDemonstration;
 pub use human::PourHuman;
-pub use learning::{PourLearning, PourSkill};
+pub use learning::{PourLearning, PourSkill, ShownPour};
 pub use planning::{PourPlan, PourReport};
 pub use refusal::PourError;
-pub use task::{Fill, PourOptions, PourTask};
+pub use saved::SavedPour;
+pub use steering::TiltSteering;
+pub use task::{Fill, PourAim, PourOptions, PourTask};
 
 #[cfg(test)]
 mod tests;

@@ -19,12 +19,11 @@ impl PourSkill {
     /// A [`PourError`] if the task is invalid or the motion cannot be rolled out.
     pub fn plain_dmp(&self, task: &PourTask) -> Result<PourPlan, PourError> {
         task.validate()?;
-        let shown_frame = self.shown.mouth.world_from_pour(self.shown.direction_rad());
         // seen from where it was shown, so that the way is turned with the direction of pouring
-        let moved = task.mouth.world_from_pour(task.direction()) * shown_frame.inverse();
+        let moved = task.mouth.world_from_pour(task.direction()) * self.whole.world_from_pour.inverse();
         let request = PoseRequest {
             settle_s: SETTLE_S,
-            ..PoseRequest::new(moved.inverse() * task.start, self.ends[1], self.duration_s, STEP_S)
+            ..PoseRequest::new(moved.inverse() * task.start, self.whole.steepest, self.whole.duration_s, STEP_S)
         };
         let rollout = self.plain.rollout(&request)?;
         let end = rollout.motions.len().saturating_sub(1);
@@ -49,6 +48,10 @@ impl PourSkill {
             off_center_m: f64::NAN,
             clearance_m: f64::NAN,
             flows_from_s: f64::NAN,
+            direction_rad: task.direction(),
+            exit_speed_m_per_s: f64::NAN,
+            throw_m: f64::NAN,
+            landing_m: f64::NAN,
         };
         let plan = SpatialPlan::new(vec![
             SpatialAction::new("pour", ActionPhase::Whole, whole),

@@ -6,12 +6,12 @@ use super::approach;
 use super::learning::PourSkill;
 use super::refusal::PourError;
 use super::task::PourTask;
-use super::tilting::{LipTask, TiltPath, transfer};
+use super::tilting::{LipTask, TiltPath, throw_m, transfer};
 use crate::spatial::{
     ActionPhase, SpatialAction, SpatialError, SpatialKnot, SpatialMotion, SpatialPlan, SpatialTrack,
     certified_clearance,
 };
-use crate::time_law::{MinimumJerkTransfer, PathState};
+use crate::time_law::PathState;
 
 /// What is known of a planned pour.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +30,15 @@ pub struct PourReport {
     pub clearance_m: f64,
     /// Time of the plan at which the flow may begin, s.
     pub flows_from_s: f64,
+    /// Direction of pouring about z of the world, rad.
+    pub direction_rad: f64,
+    /// Expected speed of the stream at the lip, m/s.
+    pub exit_speed_m_per_s: f64,
+    /// Expected level distance from the lip to where the middle of the stream meets the plane of the mouth, m.
+    pub throw_m: f64,
+    /// Expected place there, m from the middle of the mouth along the direction of pouring: 0 unless the mouth is too narrow for
+    /// the lip to be held back that far, or the aim is another.
+    pub landing_m: f64,
 }
 
 /// Plan of a cup for one pour.
@@ -39,17 +48,16 @@ pub struct PourPlan {
     pub plan: SpatialPlan,
     /// What is known of it.
     pub report: PourReport,
-    tilting: Option<Tilting>,
+    pub(super) tilting: Option<Tilting>,
 }
 
 /// The way of the tilt and its schedule.
 #[derive(Debug, Clone, PartialEq)]
-struct Tilting {
-    path: TiltPath,
-    world_from_pour: Isometry3<f64>,
-    // begin and duration of tilting to the onset and on, s of the plan
-    spans: [(f64, f64); 2],
-    rate_rad_per_s: f64,
+pub(super) struct Tilting {
+    pub(super) path: TiltPath,
+    pub(super) world_from_pour: Isometry3<f64>,
+    /// Largest rate at which the cup tilts back, rad/s.
+    pub(super) rate_rad_per_s: f64,
 }
 
 /// Distance within which a certificate meets what is sampled, m.
@@ -95,6 +103,7 @@ impl PourSkill {
         ];
         let clearance_m = certified(task, &actions)?;
         let begin_s = coming.duration_s();
+        let (throw_m, exit_speed_m_per_s) = throw_m(task);
         let report = PourReport {
             onset_rad,
             flows_from_rad: from * path.end_rad,
@@ -103,13 +112,12 @@ impl PourSkill {
             off_center_m,
             clearance_m,
             flows_from_s: begin_s + tilt_s,
+            direction_rad: task.direction(),
+            exit_speed_m_per_s,
+            throw_m,
+            landing_m: lip.over_m + throw_m,
         };
-        let tilting = Tilting {
-            path,
-            world_from_pour,
-            spans: [(begin_s, tilt_s), (begin_s + tilt_s, pour_s)],
-            rate_rad_per_s: options.tilt_rate_rad_per_s,
-        };
+        let tilting = Tilting { path, world_from_pour, rate_rad_per_s: options.tilt_rate_rad_per_s };
         Ok(PourPlan { plan: SpatialPlan::new(actions)?, report, tilting: Some(tilting) })
     }
 }
@@ -117,28 +125,6 @@ impl PourSkill {
 impl PourPlan {
     pub(super) fn plain(plan: SpatialPlan, report: PourReport) -> Self {
         Self { plan, report, tilting: None }
-    }
-
-    /// Track that tilts the cup back from where the plan is at `time_s`, s of the plan, along the way it came: what an
-    /// [`super::AmountStop`] asks for. It begins with the pose, velocity and acceleration of the plan and ends upright beside
-    /// the mouth. `None` while the plan does not tilt the cup forward.
-    ///
-    /// # Errors
-    /// [`SpatialError`] only if `time_s` is not finite.
-    pub fn tilt_back(&self, time_s: f64) -> Result<Option<SpatialTrack>, SpatialError> {
-        let Some(tilting) = &self.tilting else { return Ok(None) };
-        let [tilt, pour] = tilting.spans;
-        let path = &tilting.path;
-        let state = if time_s >= pour.0 && time_s <= pour.0 + pour.1 {
-            transfer(path.flows_from, 1.0, pour.1)(time_s - pour.0)
-        } else if time_s >= tilt.0 && time_s < pour.0 {
-            transfer(0.0, path.flows_from, tilt.1)(time_s - tilt.0)
-        } else {
-            return Ok(None);
-        };
-        let duration_s = path.duration_s(0.0, state.position, tilting.rate_rad_per_s);
-        let back = MinimumJerkTransfer::new(0.0, state, 0.0, duration_s);
-        path.track(&tilting.world_from_pour, duration_s, |time_s| back.at(time_s)).map(Some)
     }
 }
 

@@ -10,23 +10,38 @@ use crate::corridor_filter::CorridorFilterConfig;
 use crate::field::{FieldError, finite, not_negative, positive, within};
 
 /// What is in the cup.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Fill {
     /// Height of the level fill above the bottom, m.
     pub height_m: f64,
     /// Angle at which its surface is stable, rad: 0 for a liquid, some half radian for beans.
     pub stability_rad: f64,
+    /// Diameter of a grain, m: how fast the fill flows over the lip goes with it.
+    pub grain_m: f64,
+    /// Coefficient of rolling friction of its grains: how fast they roll down the wall goes with it.
+    pub rolling_friction: f64,
 }
 
 impl Default for Fill {
     fn default() -> Self {
-        Self { height_m: 0.045, stability_rad: 0.5 }
+        Self { height_m: 0.045, stability_rad: 0.5, grain_m: 0.007, rolling_friction: 0.1 }
     }
 }
 
+/// Where the lip is held while it pours.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PourAim {
+    /// Such that the middle of the stream, thrown forward as it falls from the lip, meets the middle of the mouth.
+    #[default]
+    Stream,
+    /// As far over the mouth as it was shown, in radii of the mouth.
+    Shown,
+}
+
 /// Options of a pour.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PourOptions {
     /// Height of the lip above what the cup clears, m: above the rim once the cup is tilted.
@@ -39,6 +54,8 @@ pub struct PourOptions {
     pub margin_m: f64,
     /// Distance of the lip from the mouth's inner edge while the flow may run, m.
     pub lip_margin_m: f64,
+    /// Where the lip is held over the mouth.
+    pub aim: PourAim,
     /// Height of the table that the cup stays above, world frame, m; that of the start if absent.
     pub floor_m: Option<f64>,
     /// Distance of the lip from the rim at which the approach ends, m: more than `margin_m`.
@@ -71,6 +88,7 @@ impl Default for PourOptions {
             least_clearance_m: 0.003,
             margin_m: 0.005,
             lip_margin_m: 0.004,
+            aim: PourAim::Stream,
             floor_m: None,
             beside_m: 0.02,
             k2: 1.0,
@@ -153,6 +171,8 @@ impl PourTask {
         self.mouth.validate().map_err(|error| error.within("mouth"))?;
         within("fill.height_m", self.fill.height_m, 0.0, self.source.height_m - self.source.wall_m)?;
         within("fill.stability_rad", self.fill.stability_rad, 0.0, 1.0)?;
+        positive("fill.grain_m", self.fill.grain_m)?;
+        within("fill.rolling_friction", self.fill.rolling_friction, 0.0, 1.0)?;
         finite("direction_rad", self.direction_rad.as_slice())?;
         self.options.validate().map_err(|error| error.within("options"))
     }

@@ -4,7 +4,8 @@ use nalgebra::{DMatrix, Isometry3, Point3, UnitQuaternion, Vector3, dvector};
 
 use super::container::{Container, Mouth};
 use super::refusal::PourError;
-use super::task::PourTask;
+use super::stream::Stream;
+use super::task::{PourAim, PourTask};
 use crate::corridor::smoothing::{SmoothingConfig, smooth};
 use crate::corridor::{Bounds, Corridor, quintic};
 use crate::corridor_filter::{CorridorFilterConfig, FilterRequest, constrain};
@@ -24,6 +25,12 @@ const MOST_STEPS: usize = 200;
 const LEFT_M: f64 = 1e-4;
 /// Bounds of the lip's height above the virtual movement, in gaps.
 const GAPS: (f64, f64) = (0.5, 2.0);
+/// Turns in which place and height of the lip are made to agree: the height changes by less than the place.
+const THROWS: usize = 6;
+/// Part of the room over the mouth that the aim may use: the rest is the corridor filter's.
+const NEAREST: f64 = 0.95;
+/// Turns in which the goal of the lip's way is moved such that it passes the aim: the way is all but linear in its goal.
+const AIMINGS: usize = 3;
 
 /// Way of the lip in the plane of pouring over the part of the tilt, 0 to 1, that is done.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,12 +46,7 @@ pub(super) struct TiltPath {
 impl TiltPath {
     /// State of the lip's place along x and z at a part of the tilt, m.
     pub(super) fn lip(&self, part: f64) -> [PathState; 2] {
-        [&self.x, &self.z].map(|rollout| {
-            let times = rollout.positions().times_s();
-            let row = times.partition_point(|time| *time <= part).saturating_sub(1).min(times.len() - 2);
-            let step = times[row + 1] - times[row];
-            quintic(state(rollout, row), state(rollout, row + 1), step, (part - times[row]) / step)
-        })
+        [&self.x, &self.z].map(|rollout| state_at(rollout, part))
     }
 
     /// The cup in the frame of pouring while the part of the tilt moves.
@@ -108,6 +110,8 @@ pub(super) struct LipTask {
     pub(super) flows_from: f64,
     pub(super) beside_m: f64,
     pub(super) over_m: f64,
+    /// Part of the tilt at which it is to be there.
+    pub(super) over_at: f64,
     pub(super) gap_m: f64,
     pub(super) margin_m: f64,
     pub(super) floor_m: f64,
@@ -115,7 +119,8 @@ pub(super) struct LipTask {
 }
 
 impl LipTask {
-    /// Derives the task of the lip: beside the mouth at first, over it, `shown_over` of its radius, when the flow may begin.
+    /// Derives the task of the lip: beside the mouth at first, over it when the flow may begin, `shown_over` of its radius or
+    /// as the throw of the stream demands.
     pub(super) fn new(task: &PourTask, shown_over: f64) -> Result<Self, PourError> {
         let (options, mouth) = (&task.options, &task.mouth);
         let room_m = mouth.radius_m - options.lip_margin_m;
@@ -126,11 +131,19 @@ impl LipTask {
         let end_rad = std::f64::consts::FRAC_PI_2 + options.beyond_level_rad;
         let onset = task.source.onset_rad(task.fill.height_m, task.fill.stability_rad);
         let flows_from = ((onset - options.before_onset_rad) / end_rad).clamp(0.05, 0.95);
+        let (over_m, over_at) = match options.aim {
+            PourAim::Shown => (shown_over * mouth.radius_m, 1.0),
+            PourAim::Stream => {
+                let middle_rad = Stream::new(&task.source, &task.fill, options.pour_rate_rad_per_s).middle_rad;
+                (-throw_m(task).0, (middle_rad / end_rad).clamp(flows_from, 1.0))
+            }
+        };
         Ok(Self {
             end_rad,
             flows_from,
             beside_m: -(mouth.outer_m(task.source.height_m) + options.beside_m),
-            over_m: (shown_over * mouth.radius_m).clamp(-0.8 * room_m, 0.8 * room_m),
+            over_m: over_m.clamp(-NEAREST * room_m, NEAREST * room_m),
+            over_at,
             gap_m: options.gap_m,
             margin_m: options.margin_m,
             floor_m: task.floor_above_rim_m(),
@@ -140,21 +153,43 @@ impl LipTask {
 
     /// Generates the way: x^t in the corridor of the mouth, then k2·x^o on top of it.
     pub(super) fn way(&self, task: &PourTask, own: &Dmp) -> Result<TiltPath, PourError> {
-        let (mouth, filter) = (&task.mouth, &task.options.corridor_filter);
-        let radius = mouth.radius_m;
+        let (x, own_height) = self.aimed(task, own)?;
+        let rise = virtual_rise(&task.source, &task.mouth, self.end_rad, [self.margin_m, self.floor_m], &|row| {
+            x.positions().samples()[(row.min(PIECES), 0)]
+        })?;
+        let z = self.lifted(&task.options.corridor_filter, &own_height, &rise)?;
+        Ok(TiltPath { end_rad: self.end_rad, flows_from: self.flows_from, x, z, lip: task.source.lip() })
+    }
+
+    /// The lip's place, kept over the mouth, and the skill's own height. What was shown drifts on while it pours: the goal
+    /// gives way such that the lip is where it should be at `over_at`.
+    fn aimed(&self, task: &PourTask, own: &Dmp) -> Result<(Rollout, Rollout), PourError> {
+        let farthest_m = NEAREST * (task.mouth.radius_m - task.options.lip_margin_m);
+        let mut goal_m = self.over_m;
+        let mut found = self.toward(goal_m, task, own)?;
+        if self.over_at >= 1.0 {
+            return Ok(found);
+        }
+        for _ in 0..AIMINGS {
+            goal_m += self.over_m - state_at(&found.0, self.over_at).position;
+            goal_m = goal_m.clamp(-farthest_m, farthest_m);
+            found = self.toward(goal_m, task, own)?;
+        }
+        Ok(found)
+    }
+
+    /// The skill's own way to a place of the lip, m, its place kept over the mouth.
+    fn toward(&self, goal_m: f64, task: &PourTask, own: &Dmp) -> Result<(Rollout, Rollout), PourError> {
+        let radius = task.mouth.radius_m;
         let request = RolloutRequest::new(
             dvector![self.beside_m / radius, self.gap_m],
-            dvector![self.over_m / radius, self.gap_m],
+            dvector![goal_m / radius, self.gap_m],
             1.0,
             1.0 / PIECES as f64,
         );
         let wanted = crate::spatial::resting(&own.rollout(&request)?.into_positions(), &request)?;
-        let x = self.over_the_mouth(filter, &column(&wanted, 0, radius)?, mouth, task.options.lip_margin_m)?;
-        let rise = virtual_rise(&task.source, mouth, self.end_rad, [self.margin_m, self.floor_m], &|row| {
-            x.positions().samples()[(row.min(PIECES), 0)]
-        })?;
-        let z = self.lifted(filter, &column(&wanted, 1, 1.0)?, &rise)?;
-        Ok(TiltPath { end_rad: self.end_rad, flows_from: self.flows_from, x, z, lip: task.source.lip() })
+        let x = self.over_the_mouth(task, &column(&wanted, 0, radius)?, goal_m)?;
+        Ok((x, column(&wanted, 1, 1.0)?))
     }
 
     /// The way of one who moves the lip in by minimum jerk until the flow may begin.
@@ -180,21 +215,15 @@ impl LipTask {
     }
 
     /// Keeps the lip over the mouth from where the flow may begin.
-    fn over_the_mouth(
-        &self,
-        filter: &CorridorFilterConfig,
-        wanted: &Rollout,
-        mouth: &Mouth,
-        lip_margin_m: f64,
-    ) -> Result<Rollout, PourError> {
-        let room_m = mouth.radius_m - lip_margin_m;
+    fn over_the_mouth(&self, task: &PourTask, wanted: &Rollout, goal_m: f64) -> Result<Rollout, PourError> {
+        let room_m = task.mouth.radius_m - task.options.lip_margin_m;
         let low = transfer(self.beside_m - 0.01, -room_m, self.flows_from);
         let corridor = Corridor::sampled(grid(), 1, |part, _| Bounds {
             lower: low(part.min(self.flows_from)),
             upper: PathState { position: room_m, ..PathState::default() },
         })?;
-        let asked = FilterRequest { start: None, goal: dvector![self.over_m], duration_s: 1.0 };
-        let kept = constrain(filter, wanted, &corridor, &asked)?;
+        let asked = FilterRequest { start: None, goal: dvector![goal_m], duration_s: 1.0 };
+        let kept = constrain(&task.options.corridor_filter, wanted, &corridor, &asked)?;
         if !kept.certificate.holds() {
             return Err(PourError::NotInside { motion: "lip", margin: kept.certificate.smallest_margin() });
         }
@@ -232,6 +261,22 @@ impl LipTask {
         }
         Ok(kept.rollout)
     }
+}
+
+/// Level distance from the lip to where the middle of the stream meets the plane of the mouth, m, and its speed at the lip,
+/// m/s, once half of the fill has left. The lip is as high as it must be to clear the rim where that distance puts it.
+pub(super) fn throw_m(task: &PourTask) -> (f64, f64) {
+    let options = &task.options;
+    let stream = Stream::new(&task.source, &task.fill, options.pour_rate_rad_per_s);
+    let here = Mouth { center_world: Point3::origin(), ..task.mouth };
+    let tilt_rad = stream.middle_rad;
+    let standing_m = task.floor_above_rim_m() + task.source.height_m * tilt_rad.cos().max(0.0);
+    let mut thrown_m = 0.0;
+    for _ in 0..THROWS {
+        let rise_m = least_height(&task.source, &here, tilt_rad, -thrown_m, options.margin_m).max(standing_m);
+        thrown_m = stream.throw_m(tilt_rad, rise_m + options.gap_m);
+    }
+    (thrown_m, stream.speed_m_per_s)
 }
 
 /// Virtual movement x^o: the least height of the lip above the rim at which the cup clears the mouth by the margin, and the
@@ -293,6 +338,14 @@ fn column(rollout: &Rollout, k: usize, by: f64) -> Result<Rollout, PourError> {
     let part = |table: &DMatrix<f64>| table.columns(k, 1) * by;
     let positions = Trajectory::new(rollout.positions().times_s().to_vec(), part(rollout.positions().samples()))?;
     Ok(Rollout::new(positions, part(rollout.velocities()), part(rollout.accelerations()))?)
+}
+
+/// State between the rows of a way.
+fn state_at(rollout: &Rollout, part: f64) -> PathState {
+    let times = rollout.positions().times_s();
+    let row = times.partition_point(|time| *time <= part).saturating_sub(1).min(times.len() - 2);
+    let step = times[row + 1] - times[row];
+    quintic(state(rollout, row), state(rollout, row + 1), step, (part - times[row]) / step)
 }
 
 fn state(rollout: &Rollout, row: usize) -> PathState {

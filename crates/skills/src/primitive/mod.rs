@@ -17,7 +17,7 @@ pub use dmp::{Dmp, DmpConfig, DmpForm, DmpPair, DmpStepper, SavedDmp, rollout_pa
 pub use generalizing::{Generalizing, GeneralizingConfig};
 pub use kernelized::{Kernelized, KernelizedConfig};
 pub use rollout::{Rollout, RolloutRequest};
-pub use saved::SavedPrimitive;
+pub use saved::{RestoreError, SavedPrimitive};
 
 use crate::error::SkillError;
 use crate::field::FieldError;
@@ -42,7 +42,7 @@ pub trait MovementPrimitive: fmt::Debug + Send + Sync {
 }
 
 /// Kinds of movement primitive, as a table in a file: `[primitive.dmp]`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PrimitiveConfig {
     /// Dynamic movement primitive, Eqs. (1)–(5).

@@ -18,7 +18,7 @@ use super::steering::Steering;
 use crate::field::{FieldError, not_negative, positive, within};
 
 /// When a hold is renewed during a push, and how.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HoldRenewalConfig {
     /// Deviation of the object from its line that is not worth a renewal, m.

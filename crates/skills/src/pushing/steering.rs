@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use crate::field::{FieldError, positive, within};
 
 /// Gains of the steering law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SteeringConfig {
     /// Way of the push over which an offset on the surface fades, m.

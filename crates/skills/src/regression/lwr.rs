@@ -12,7 +12,7 @@ use crate::field::FieldError;
 ///
 /// Each basis fits F ≈ w_i s near its center alone, in O(n·M); the blend of Eq. (2) then smooths over neighbors, which
 /// costs accuracy. Source: A. J. Ijspeert et al., Neural Computation 25(2), 2013, doi:10.1162/NECO_a_00393.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lwr {}
 

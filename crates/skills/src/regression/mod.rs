@@ -54,7 +54,7 @@ pub trait Regression {
 }
 
 /// Kinds of regression, as a table in a file: `regression.ridge.lambda = 1e-8` or `regression.lwr = {}`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum RegressionConfig {
     /// Least squares over all bases at once, with a small ridge (default).

@@ -20,7 +20,7 @@ use crate::field::FieldError;
 /// each by its own recursive least squares. LWPR also projects inputs of many dimensions, adds receptive fields where the
 /// data ask for them and adapts their widths; here the input is the phase alone and the receptive fields are the bases of
 /// Eq. (2), fixed.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Recursive {
     /// ρ, above 0 and at most 1, without unit; 1 by default: nothing is forgotten. Below 1 the order of the samples counts.

@@ -12,7 +12,7 @@ use crate::field::{FieldError, not_negative};
 /// weights and F the targets of Eq. (5).
 ///
 /// The ridge is relative to the mean diagonal, so that λ means the same for every number of samples and every unit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ridge {
     /// λ ≥ 0, without unit; 1e-8 by default.

@@ -13,7 +13,7 @@ use crate::time_law::{minimum_jerk, minimum_jerk_first_derivative, minimum_jerk_
 const PEAK: f64 = 1.875;
 
 /// Options of a free move.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FreeMoveConfig {
     /// Peak speed of a leg, m/s.

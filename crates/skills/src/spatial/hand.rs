@@ -23,7 +23,7 @@ const SWELL: f64 = 0.3;
 const PAUSE_SPREAD: f64 = 0.4;
 
 /// Numbers of a hand.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HandConfig {
     /// Velocity noise per speed, linear and angular (signal-dependent noise; C. M. Harris and D. M. Wolpert, 1998).

@@ -28,7 +28,7 @@ pub struct SpatialJoint {
 }
 
 /// Limits of the tool's motion.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SpatialLimits {
     /// Box of the world that the tool's origin stays in, lower and upper corner, m; nowhere bound if absent.

@@ -9,7 +9,7 @@ use crate::field::{FieldError, finite, within};
 use crate::outline::PlacedOutline;
 
 /// What a tool file states: either a family with its lengths, or pieces and surfaces one by one.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolFile {
     /// Name, as scenarios and reports call it.
@@ -36,7 +36,7 @@ pub struct ToolFile {
 }
 
 /// How the actuator holds the tool: the pose of the tool's own frame in the actuator's, T_A^T of Sec. IV.A.2.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Grip {
     /// Position of the tool's own origin in the actuator's frame, m.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::field::{FieldError, finite, not_negative, positive, within};
 
 /// A part of a tool's outline that may push.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactSurface {
     /// Name, as plans and reports call it.
@@ -23,7 +23,7 @@ pub struct ContactSurface {
 }
 
 /// Where a contact surface lies, in the tool frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SurfaceShape {
     /// A straight face; its outward normal points to the right of the way from `start_m` to `end_m`.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::field::{FieldError, not_negative, positive};
 
 /// Sense in which the object's center goes round the tool, seen in the tool's frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum WayRound {
     /// The shorter one (default).
@@ -18,7 +18,7 @@ pub enum WayRound {
 }
 
 /// How the factor k2 of Eq. (28) is chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SecondFactor {
     /// The smallest that is certified free of collisions (default).
@@ -29,7 +29,7 @@ pub enum SecondFactor {
 }
 
 /// Options of the generalization of a tool flip, Eq. (28).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FlipOptions {
     /// Clearance of the virtual object movement between its ends, m: the object leaves a contact by it along the normal.

@@ -18,4 +18,4 @@ pub use library::{LearningReport, ObjectOperatingSkill, SkillLibrary, ToolFlippi
 pub use planning::{Orientation, PushProblem};
 pub use refusal::{LearnError, PlanError};
 pub use routing::Surroundings;
-pub use saved::{RestoreError, SavedFlip, SavedIntention, SavedLibrary, SavedPush};
+pub use saved::{SavedFlip, SavedIntention, SavedLibrary, SavedPush};

@@ -19,7 +19,7 @@ use crate::primitive::{MovementPrimitive, RolloutRequest};
 use crate::tool::{Contact, ContactSurface, Tool};
 
 /// How the tool is turned.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Orientation {
     /// As in the demonstrations: the tool's axes stay along the world's.

@@ -7,7 +7,7 @@ use super::intention::Intention;
 use super::library::{ObjectOperatingSkill, SkillLibrary, ToolFlippingSkill};
 use crate::error::SkillError;
 use crate::field::{FieldError, finite, positive};
-use crate::primitive::{PrimitiveConfig, SavedPrimitive};
+use crate::primitive::{PrimitiveConfig, RestoreError, SavedPrimitive};
 use crate::tool::Tool;
 
 /// Everything that defines a [`SkillLibrary`]; what is restored rolls out to the same bits.
@@ -60,22 +60,6 @@ pub struct SavedFlip {
     pub length_m: f64,
     /// Place of the tool's origin relative to the object's center, world axes, m.
     pub path: SavedPrimitive,
-}
-
-/// States why saved skills cannot be used.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum RestoreError {
-    /// A value cannot be that of a learned skill; the field is told relative to the saved library.
-    #[error("restore skills: {0}")]
-    Field(#[from] FieldError),
-    /// A primitive cannot be built anew.
-    #[error("restore skills: {path}: {source}")]
-    Primitive {
-        /// Path of the primitive relative to the saved library, such as `pushes.0.path`.
-        path: String,
-        /// What is wrong with it.
-        source: SkillError,
-    },
 }
 
 impl SkillLibrary {

@@ -8,7 +8,7 @@ use crate::field::{FieldError, not_negative, positive, within};
 use crate::tool_flipping::FlipOptions;
 
 /// Options of a transfer to another tool.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TransferConfig {
     /// Distance of the object from obstacles, m: the paper's safe margin.
@@ -72,7 +72,7 @@ impl TransferConfig {
 }
 
 /// Options of the search; costs are lengths, m.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SearchConfig {
     /// Side of a cell, m.

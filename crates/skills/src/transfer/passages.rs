@@ -13,7 +13,7 @@ use crate::outline::PlacedOutline;
 use crate::trajectory::Trajectory;
 
 /// Side on which an obstacle is passed, world axes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
     /// At smaller x.

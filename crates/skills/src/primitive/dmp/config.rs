@@ -6,7 +6,7 @@ use crate::field::FieldError;
 use crate::regression::RegressionConfig;
 
 /// Which form of Eq. (1) the forcing term stands in; the attractor is the same in all three.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum DmpForm {
     /// x = x0 + (g − x0)·mj(t/T) + ξ with τ²ξ̈ = −αβξ − ατξ̇ + f: no jump in acceleration for a new goal, an end error that
@@ -21,7 +21,7 @@ pub enum DmpForm {
 }
 
 /// Options of the dynamic movement primitive of Eqs. (1)–(5).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DmpConfig {
     /// Form the forcing term stands in.

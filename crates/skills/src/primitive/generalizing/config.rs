@@ -7,7 +7,7 @@ use crate::field::{FieldError, within};
 use crate::primitive::{DmpConfig, DmpForm};
 
 /// What is made of the errors that leaving demonstrations out shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Selection {
     /// Rules share the answer in inverse proportion to the square of their mean squared error (default): on few
@@ -19,7 +19,7 @@ pub enum Selection {
 }
 
 /// Options of the generalizing primitive.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GeneralizingConfig {
     /// Options of the DMP that learns each demonstration; its form is the residual one.

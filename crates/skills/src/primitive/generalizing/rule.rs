@@ -11,7 +11,7 @@ use crate::trajectory::Trajectory;
 const FARTHEST: f64 = 3.0;
 
 /// How the residual of a motion about its minimum-jerk transfer follows the displacement g − x0 of the task.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Rule {
     /// The mean of the shown shapes, moved along: what a residual DMP of all demonstrations does.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::field::{FieldError, within};
 
 /// Options of the kernelized movement primitive.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct KernelizedConfig {
     /// Number N of reference points, uniform in time from start to end, 4 to 200; learning takes N³ steps.

@@ -17,6 +17,7 @@ use nalgebra::{DMatrix, Vector3};
 
 pub use motion::{PoseMotion, PoseRequest, PoseRollout, PoseStepper, PoseVelocity};
 pub use saved::SavedPose;
+pub(crate) use trajectory::checked;
 pub use trajectory::{PoseError, PoseTrajectory};
 pub use turning::ShownTurn;
 

@@ -136,7 +136,7 @@ impl PoseTrajectory {
 }
 
 /// Checks one pose and makes its quaternion exactly unit; one that is keeps its bits.
-pub(super) fn checked(row: usize, pose: &Isometry3<f64>) -> Result<Isometry3<f64>, PoseError> {
+pub(crate) fn checked(row: usize, pose: &Isometry3<f64>) -> Result<Isometry3<f64>, PoseError> {
     let (vector, quaternion) = (pose.translation.vector, pose.rotation.into_inner());
     if let Some((column, found)) =
         vector.iter().chain(quaternion.coords.iter()).enumerate().find(|(_, value)| !value.is_finite())

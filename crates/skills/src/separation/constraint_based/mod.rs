@@ -7,11 +7,13 @@
 
 mod mapping;
 mod refusal;
+mod saved;
 
 use serde::{Deserialize, Serialize};
 
 pub use mapping::{CoordinateReport, DemonstrationReport};
 pub use refusal::ConstraintError;
+pub use saved::SavedConstraintBased;
 
 use crate::corridor::{Bounds, Corridor};
 use crate::corridor_map::{CorridorMapConfig, Fallback, MotionEnds};
@@ -21,7 +23,7 @@ use crate::primitive::{MovementPrimitive, PrimitiveConfig, RolloutRequest};
 use crate::trajectory::Trajectory;
 
 /// What is mapped to the unconstrained coordinate.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum MappingOrder {
     /// The demonstrations, each through its own corridor; the primitive is learned from all of them after that
@@ -37,7 +39,7 @@ pub enum MappingOrder {
 }
 
 /// Options of Algorithm 2.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ConstraintBasedConfig {
     /// Map between the corridor and the unconstrained coordinate.
@@ -135,13 +137,14 @@ impl ConstraintBased {
         self.primitive.as_ref()
     }
 
-    /// Returns the unconstrained motions x^u that the primitive was learned from, one per demonstration, in its time.
+    /// Returns the unconstrained motions x^u that the primitive was learned from, one per demonstration, in its time; none of a
+    /// skill that was restored.
     #[must_use]
     pub fn unconstrained(&self) -> &[Trajectory] {
         &self.unconstrained
     }
 
-    /// Returns what was found in each demonstration.
+    /// Returns what was found in each demonstration; nothing of a skill that was restored.
     #[must_use]
     pub fn reports(&self) -> &[DemonstrationReport] {
         &self.reports

@@ -11,7 +11,7 @@ use crate::tool::ContactSurface;
 ///
 /// Surfaces: `bottom`, `tip` and `top` of the arm, the surfaces 1, 2 and 3 of Fig. 4, of which `bottom` and `top` begin at
 /// the arm's end; with a `stem_length_m` also `stem`, the inner side of the stem from its end.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ell {
     /// Length of the arm over all, m.

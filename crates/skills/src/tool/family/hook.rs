@@ -15,7 +15,7 @@ use crate::tool::ContactSurface;
 ///
 /// A disc of the stated radius passes the mouth with play, and held against bar and prong it cannot drift off. Surfaces:
 /// `pull`, `prong` and `shank` around the throat; `front`, `left`, `right` and `tip` outside.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Hook {
     /// Length of the shank to the inner side of the bar, m.

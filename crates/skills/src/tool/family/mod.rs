@@ -46,7 +46,7 @@ pub trait ToolShape {
 }
 
 /// Families of tools, as a table in a file: `family.l = {}` or `family.hook = { throat_m = 0.03 }`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ToolFamily {
     /// Stick with a round head: tool 1 of Table 1.

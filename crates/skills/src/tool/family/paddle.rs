@@ -19,7 +19,7 @@ use crate::tool::{ContactSurface, SurfaceShape};
 /// bulge: pushed without slip through s, its angle φ off the middle follows dφ/ds = κ sin φ / (R + r), with the
 /// face's radius r positive for a bulge, negative for a hollow, and κ = 1/(1 + c²/R²) for a disc of radius R and friction
 /// length c.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Paddle {
     /// Width, m.
@@ -33,7 +33,7 @@ pub struct Paddle {
 }
 
 /// Form of a paddle's face.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PaddleFace {
     /// Straight: a disc neither stays nor leaves by itself.

@@ -14,7 +14,7 @@ use crate::tool::ContactSurface;
 /// A disc of the stated radius fits between neighboring tines with play, and cannot drift off. Surfaces: for each gap, from
 /// the left, `gap_1` on the bar, which pulls, `gap_1_left` and `gap_1_right` on the tines beside it; `front`, `left` and
 /// `right` outside.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rake {
     /// Number of tines, 2 to 5.

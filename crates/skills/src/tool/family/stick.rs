@@ -10,7 +10,7 @@ use crate::tool::{ContactSurface, SurfaceShape};
 /// Shaft along y with a round head; the origin is the middle of its rear end.
 ///
 /// Surfaces: `side` to the left, up to the head; `head`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Stick {
     /// Length with the head, m.

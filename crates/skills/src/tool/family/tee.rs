@@ -13,7 +13,7 @@ use crate::tool::ContactSurface;
 ///
 /// Surfaces: `top`, `left` and `right` of the bar, which push away; `bottom_left` and `bottom_right` of the bar, which pull;
 /// `stem_left`, `stem_right` and `foot` of the stem.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tee {
     /// Length of the bar, m.
