@@ -344,3 +344,42 @@ fn added_tool_frame_is_led_like_any_other() {
     let flange_position = pose_of(&arm, flange, &solution.q).translation.vector;
     assert!((flange_position - Vector3::new(0.0, 0.32, 0.0)).norm() < 1e-8);
 }
+
+#[test]
+fn a_joint_goes_no_farther_than_those_that_mimic_it() {
+    // two links of 1 m; a flap on the first one turns along with the second, by half a radian at most
+    let link = |name: &str| {
+        format!(
+            r#"<link name="{name}"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>"#
+        )
+    };
+    let joint = |name: &str, parent: &str, child: &str, x: f64, limit: f64, mimic: &str| {
+        format!(
+            r#"<joint name="{name}" type="revolute"><parent link="{parent}"/><child link="{child}"/><origin xyz="{x} 0 0"/><axis xyz="0 0 1"/><limit lower="-{limit}" upper="{limit}" effort="1" velocity="1"/>{mimic}</joint>"#
+        )
+    };
+    let mimic = r#"<mimic joint="second"/>"#;
+    let text = format!(
+        r#"<robot name="r">{}{}{}{}{}{}{}{}<joint name="end" type="fixed"><parent link="b"/><child link="tip"/><origin xyz="1 0 0"/></joint></robot>"#,
+        link("base"),
+        link("a"),
+        link("b"),
+        link("flap"),
+        r#"<link name="tip"/>"#,
+        joint("first", "base", "a", 0.0, 3.0, ""),
+        joint("second", "a", "b", 1.0, 2.0, ""),
+        joint("third", "a", "flap", 0.5, 0.5, mimic),
+    );
+    let arm = Manipulator::from_urdf_str(&text).unwrap();
+    let tip = arm.frame("tip").unwrap();
+    let mut solver = solver(&arm, tip, TaskRows::Position);
+    let start = DVector::from_column_slice(&[0.1, 0.1, 0.1]);
+    let at = |second: f64| Isometry3::translation(1.0 + second.cos(), second.sin(), 0.0);
+    let within = solver.solve(&at(0.4), &start).unwrap();
+    assert!(within.q[1].abs() <= 0.5, "{}", within.q);
+    let refused = solver.solve(&at(1.2), &start).unwrap_err();
+    assert!(
+        matches!(&refused, RobotError::Unreachable { reason: UnreachableReason::AtLimits { .. }, .. }),
+        "{refused}"
+    );
+}

@@ -69,8 +69,13 @@ impl InverseKinematics {
         let n = manipulator.joint_count();
         options.check(n)?;
         let zeros = DVector::zeros(n);
+        // a joint that others mimic goes no farther than they can
+        let mut own = manipulator.clone();
+        for joint in 0..n {
+            own.joints[joint].limits = manipulator.leader_limits(joint)?;
+        }
         Ok(Self {
-            workspace: manipulator.workspace(),
+            workspace: own.workspace(),
             frame,
             rows,
             options,
