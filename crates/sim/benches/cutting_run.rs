@@ -3,6 +3,7 @@
 #![expect(clippy::expect_used, reason = "a bench stops at the first surprise")]
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
+use std::time::{Duration, Instant};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nalgebra::{DVector, Isometry3, Translation3, UnitQuaternion, Vector3, Vector6};
@@ -13,8 +14,8 @@ use sim::cutting::knife::KnifeFile;
 use sim::cutting::mechanics::{CuttingConfig, Thresholds};
 use sim::cutting::scene::{CuttingBoard, CuttingProcess, CuttingSetup, held_knife, knife_from_tool};
 use sim::spatial::{
-    ArmConfig, EngineConfig, SceneDescription, SpatialReference, SpatialSetup, SpatialWorld, arm_with_tool,
-    check_reach, simulate, standard_gravity,
+    ArmConfig, BodyDrawing, EngineConfig, Observer, Sample, SceneDescription, SpatialReference, SpatialSetup,
+    SpatialWorld, arm_with_tool, check_reach, simulate, standard_gravity,
 };
 
 const BOARD: [f64; 3] = [0.5, 0.0, 0.15];
@@ -51,8 +52,31 @@ fn reference(time_s: f64) -> SpatialReference {
     SpatialReference { velocity, finished: share >= 1.0, ..SpatialReference::at_rest(Isometry3::from_parts(at, down)) }
 }
 
+/// Clock time of the control period in which a food came apart: clipping, hulls, masses, new bodies, their pictures, and the
+/// engine's step around it.
+#[derive(Default)]
+struct Splitting {
+    before: Option<Instant>,
+    came_apart: bool,
+    longest: Duration,
+}
+
+impl Observer for Splitting {
+    fn sample(&mut self, _: &Sample<'_>) {
+        let now = Instant::now();
+        if let Some(before) = self.before.filter(|_| self.came_apart) {
+            self.longest = self.longest.max(now - before);
+        }
+        (self.before, self.came_apart) = (Some(now), false);
+    }
+
+    fn bodies(&mut self, _: f64, _: &[BodyDrawing]) {
+        self.came_apart = true;
+    }
+}
+
 /// Cuts one food; the number of its pieces.
-fn cut(setup: &CuttingSetup) -> usize {
+fn cut(setup: &CuttingSetup, observer: &mut dyn Observer) -> usize {
     let engine = EngineConfig::default();
     let hand_from_knife = Isometry3::rotation(Vector3::x() * FRAC_PI_2) * setup.knife.knife_from_grip.inverse();
     let tool = held_knife(&setup.knife, hand_from_knife * knife_from_tool(&setup.knife));
@@ -80,7 +104,7 @@ fn cut(setup: &CuttingSetup) -> usize {
         settle_s: 2.0 - STROKE_S,
         longest_s: 3.0,
     };
-    simulate(&spatial, world, &q, &mut source, &mut controller, &mut process, &mut ()).expect("a finite run");
+    simulate(&spatial, world, &q, &mut source, &mut controller, &mut process, observer).expect("a finite run");
     process.record().pieces.len()
 }
 
@@ -93,7 +117,23 @@ fn cutting(criterion: &mut Criterion) {
     ];
     for (name, text) in foods {
         let setup = setup(text);
-        group.bench_function(name, |bencher| bencher.iter(|| cut(&setup)));
+        group.bench_function(name, |bencher| bencher.iter(|| cut(&setup, &mut ())));
+    }
+    group.finish();
+    let mut group = criterion.benchmark_group("control period in which a food comes apart");
+    group.sample_size(10);
+    for (name, text) in foods {
+        let setup = setup(text);
+        group.bench_function(name, |bencher| {
+            bencher.iter_custom(|runs| {
+                let one = |_| {
+                    let mut splitting = Splitting::default();
+                    assert!(cut(&setup, &mut splitting) > 1, "the food comes apart");
+                    splitting.longest
+                };
+                (0..runs).map(one).sum()
+            });
+        });
     }
     group.finish();
 }

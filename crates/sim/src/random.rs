@@ -2,6 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use rand_distr::StandardNormal;
 
 /// What random numbers are drawn for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +33,11 @@ pub fn stream(seed: u64, purpose: Purpose, trial: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(purpose as u64 + TRIAL_STRIDE * trial);
     random
+}
+
+/// Draws a number from the standard normal distribution.
+pub fn normal(random: &mut ChaCha8Rng) -> f64 {
+    random.sample(StandardNormal)
 }
 
 /// Draws a number from −1 to 1, all equally likely.

@@ -22,7 +22,7 @@ use super::terms::ModelTerms;
 const DAMPING: &str = "damping_nm_s_per_rad";
 
 /// Gains of the impedance controller.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ImpedanceConfig {
     /// kₑ: rate at which a position error fades, 1/s.

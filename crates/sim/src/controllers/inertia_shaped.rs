@@ -18,7 +18,7 @@ use super::feedback::Feedback;
 use super::terms::ModelTerms;
 
 /// Gains of the inertia-shaped controller.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct InertiaShapedConfig {
     /// kₑ: rate at which a position error fades, 1/s.

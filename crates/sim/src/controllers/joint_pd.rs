@@ -18,7 +18,7 @@ const STIFFNESS: &str = "stiffness_nm_per_rad";
 const DAMPING: &str = "damping_nm_s_per_rad";
 
 /// Gains of the joint springs and dampers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointPdConfig {
     /// K of each joint, N m/rad; one number serves all joints.

@@ -21,7 +21,7 @@ pub use joint_pd::{JointPd, JointPdConfig};
 pub use literal::Literal;
 
 /// Which controller a scenario uses.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ControllerConfig {
     /// The paper's impedance controller, corrected.

@@ -7,7 +7,7 @@ use skills::field::{FieldError, not_negative, positive, within};
 ///
 /// Fracture energies of foods lie between 1 and 2000 J/m² (Vincent, "Application of fracture mechanics to the texture of
 /// food", 2004; Kachru, Balasubramanian and Kotwaliwale 1995 for banana; Lang and Düring 1990 for the skin of grapes).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Fracture energy R of a new cut surface at the reference speed, J/m², which is the force per length of edge, N/m.
@@ -51,7 +51,7 @@ pub struct Material {
 ///
 /// What a file may leave out (reference speed, effect of slicing, factors of initiation) is that of most foods, and its basis
 /// stands with [`Material`].
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[expect(missing_docs, reason = "each field is the basis of the property of the same name, documented in Material")]
 pub struct MaterialBasis {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, not_negative, positive, within};
 
 /// How a synthetic human sees, decides and moves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct HumanConfig {
     /// Delay from seeing to acting, s.

@@ -8,7 +8,7 @@ use skills::outline::{Outline, PlacedOutline};
 use crate::support::SupportModel;
 
 /// The table seen from above: map bounds, gravity into the table, fixed obstacles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WorldConfig {
     /// Area in which the object may be, world frame.
@@ -26,7 +26,7 @@ fn standard_gravity() -> f64 {
 }
 
 /// An axis-aligned rectangle in the world frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapBounds {
     /// Lower left corner, m.
@@ -52,7 +52,7 @@ impl MapBounds {
 }
 
 /// A fixed, named obstacle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Obstacle {
     /// Name, as reports call it.
@@ -82,7 +82,7 @@ impl Obstacle {
 }
 
 /// The object that is pushed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectConfig {
     /// Name, as reports call it.
@@ -152,7 +152,7 @@ impl ObjectConfig {
 const WHOLE_STEPS: f64 = 1e-6;
 
 /// How time advances and how the engine solves contacts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct EngineConfig {
     /// Time step of the physics, s; the control period is a whole multiple of it.

@@ -9,7 +9,7 @@ const MAX_SPEED_M_PER_S: f64 = 400.0;
 const MAX_PUSH_OUT_M_PER_S: f64 = 0.5;
 
 /// How the engine solves friction between free bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum FrictionScheme {
     /// One friction constraint per contact point.

@@ -29,7 +29,7 @@ const PATIENCE_S: f64 = 8.0;
 const MOST_GRAINS: usize = 20_000;
 
 /// How much is filled in.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum FillAmount {
     /// That many grains.

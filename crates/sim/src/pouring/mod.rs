@@ -13,8 +13,8 @@ mod monitor;
 mod process;
 
 pub use container::{
-    AttachedContainer, Bottle, Cone, Container, ContainerFile, DrawingMesh, Lip, Piece, PieceShape, Profile, Rim,
-    Spout, Straight,
+    AttachedContainer, Bottle, Cone, Container, ContainerFile, ContainerMass, DrawingMesh, Lip, Piece, PieceShape,
+    Profile, Rim, Spout, Straight,
 };
 pub use engine::{FrictionScheme, GrainEngineConfig};
 pub use filling::{FillAmount, Filling, PACKING_FRACTION, fill};

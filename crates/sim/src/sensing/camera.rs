@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, not_negative, within};
 
 /// Frame rate, latency and errors of a camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
     /// Frames per second, Hz.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, not_negative, positive};
 
 /// Friction of one joint, which the controller does not know of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct JointFriction {
     /// Coulomb friction, N m (N): the largest torque with which the joint resists motion, also at rest.
@@ -14,7 +14,7 @@ pub struct JointFriction {
 }
 
 /// Friction and motors of a simulated arm.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ArmConfig {
     /// Friction of each joint; one entry for all joints, one per joint, or none.

@@ -11,7 +11,7 @@ const WHOLE_STEPS: f64 = 1e-6;
 /// Two substeps of half a millisecond are the default: computed torque tracks sinusoids of 0.3 rad at 0.3 to 0.9 Hz within
 /// 1.9e-4 rad (root mean square) with one, 9.7e-5 with two and 5.9e-5 with four, at about one, two and four times the engine's
 /// cost; torques held for a millisecond leave 1.2e-4 of an ideal arm, so that more than two gain little.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct EngineConfig {
     /// Time step of the physics, s; the control period is a whole multiple of it.

@@ -15,7 +15,7 @@ const FARTHEST_PAYLOAD_M: f64 = 10.0;
 
 /// Errors of a controller's model of its arm: without them a controller that cancels the arm's dynamics looks better than
 /// any will on a machine.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ModelMismatch {
     /// Share by which the model's masses and inertias are all too large; negative if too small.

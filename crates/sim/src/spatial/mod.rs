@@ -34,7 +34,7 @@ pub use observer::{
     ArmDescription, BodyDrawing, GrainDescription, LinkDrawing, Observer, Sample, SceneDescription, Series,
 };
 pub use process::{News, NoProcess, Process, Step, wrench_of};
-pub use reach::{EachLook, check_reach, check_reach_along};
+pub use reach::{EachLook, OutOfReach, check_reach, check_reach_along, out_of_reach};
 pub use reference::{ReferenceSource, SpatialReference};
 pub use simulation::{SpatialSetup, simulate};
 pub use tool::{HeldTool, ToolPiece, arm_with_tool};

@@ -76,6 +76,42 @@ pub fn check_reach_along(
     Ok(start)
 }
 
+/// How far a pose is out of an arm's reach.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutOfReach {
+    /// Distance of the tool's origin from where it should be, in the closest posture found, m.
+    pub distance_m: f64,
+    /// Angle left there, rad.
+    pub angle_rad: f64,
+    /// What holds the arm back, in words.
+    pub reason: String,
+}
+
+/// Looks for a posture that brings the tool to `world_from_tool`, from `near` and from others; returns how much is missing of it, or
+/// `None` if the arm gets there.
+///
+/// # Errors
+/// [`SimError::Field`] for a posture that cannot be used; [`SimError::Robot`] if the model has no tool or the pose is not finite.
+pub fn out_of_reach(
+    model: &Manipulator,
+    near: &DVector<f64>,
+    world_from_tool: &Isometry3<f64>,
+) -> Result<Option<OutOfReach>, SimError> {
+    check_posture("near", model, near)?;
+    let frame = model.frame(TOOL_FRAME)?;
+    let options = InverseKinematicsOptions::default();
+    let mut solver = InverseKinematics::new(model, frame, TaskRows::Pose, options)?;
+    match solver.solve(&in_base(model, world_from_tool), near) {
+        Ok(_) => Ok(None),
+        Err(RobotError::Unreachable { position_error_m, angle_error_rad, reason, .. }) => Ok(Some(OutOfReach {
+            distance_m: position_error_m,
+            angle_rad: angle_error_rad,
+            reason: reason.to_string(),
+        })),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Checks that a posture has a finite coordinate for each joint.
 pub(super) fn check_posture(field: &str, model: &Manipulator, q: &DVector<f64>) -> Result<(), FieldError> {
     if q.len() != model.joint_count() {
@@ -116,6 +152,20 @@ mod tests {
         let arm = Manipulator::from_urdf_str(&text).expect("valid");
         let (base, gravity) = (Isometry3::identity(), standard_gravity());
         arm_with_tool(&arm, "panda_hand_tcp", &HeldTool::none(), &base, &gravity, &[]).expect("an arm")
+    }
+
+    #[test]
+    fn a_pose_out_of_reach_is_told_with_what_is_missing() {
+        let model = panda_with_a_follower();
+        let near = DVector::from_column_slice(&[0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8, 0.08]);
+        let down = nalgebra::UnitQuaternion::from_axis_angle(&nalgebra::Vector3::x_axis(), std::f64::consts::PI);
+        let at = |x: f64| Isometry3::from_parts(nalgebra::Translation3::new(x, 0.0, 0.3), down);
+        assert_eq!(out_of_reach(&model, &near, &at(0.5)).expect("usable"), None);
+        // a meter farther out, a meter more is missing
+        let [far, farther] = [2.0, 3.0].map(|x| out_of_reach(&model, &near, &at(x)).expect("usable").expect("too far"));
+        assert!((farther.distance_m - far.distance_m - 1.0).abs() < 0.03, "{far:?} {farther:?}");
+        assert!((0.9..1.3).contains(&far.distance_m), "{far:?}");
+        assert!(far.reason.contains("panda_joint1"), "{far:?}");
     }
 
     #[test]

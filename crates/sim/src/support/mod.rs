@@ -15,7 +15,7 @@ pub use ellipsoid::Ellipsoid;
 pub use pressure::SupportPoints;
 
 /// Which law of support friction a scene uses.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SupportModel {
     /// Ellipsoidal limit surface.

@@ -36,6 +36,9 @@ fn volume_and_mass_are_those_of_the_food_after_every_cut() {
     assert_eq!(names.len(), 6, "each piece has a name of its own");
 }
 
+/// Force of the block on a knife that is all the way in: 8 N of fracture and most of 5 N of the flanks, N.
+const CROSS_N: f64 = 12.0;
+
 #[test]
 fn a_stroke_across_two_pieces_cuts_both() {
     let mut setup = setup(food(BLOCK), FRAC_PI_2);
@@ -43,11 +46,15 @@ fn a_stroke_across_two_pieces_cuts_both() {
     let across = |height: f64| upright(0.0, 0.0, height) * quarter;
     setup.planned = vec![upright(0.0, 0.0, 0.03), across(0.03)];
     let between = press(0.0, 0.05, 0.001, 2.0).to(2.0, across(0.05));
-    let script = stroke(between, across(0.0), 0.05, 0.001, 2.5);
+    let mut script = stroke(between, across(0.0), 0.05, 0.001, 2.5);
+    // under the block's force the arm gives way and turns, so that the heel would be on the board before the block is through
+    script.expected[2] = CROSS_N;
     let outcome = run(&setup, &script);
     let record = &outcome.record;
     assert_eq!(record.pieces.len(), 4, "{:?}", outcome.events);
-    assert_eq!(record.cuts.iter().map(|cut| cut.planned).collect::<Vec<_>>(), [Some(0), Some(1), Some(1)]);
+    // a piece that the knife grazes on its way out is not cut
+    let cut = record.cuts.iter().filter(|cut| cut.separated_s.is_some()).map(|cut| cut.planned);
+    assert_eq!(cut.collect::<Vec<_>>(), [Some(0), Some(1), Some(1)]);
     let whole = setup.food.solid.volume_m3();
     let volume: f64 = record.pieces.iter().map(|piece| piece.volume_m3).sum();
     assert!((volume / whole - 1.0).abs() < 1e-12, "{volume} of {whole} m³");

@@ -6,6 +6,7 @@ mod books;
 mod failures;
 mod fixture;
 mod forces;
+mod limits;
 mod quality;
 mod steps;
 mod thirds;

@@ -30,21 +30,23 @@ fn tilts_deg(count: usize, rate_deg_per_s: f64, from_deg: f64, shares: &[f64], s
 /// What five heaps of the default grain measured, degrees.
 const HEAP_DEG: f64 = 24.5;
 
-/// Share of the volume by which the level is reckoned from the number of grains.
+/// Share of the volume by which the level is reckoned from the number of grains, and that of the default grain.
 const NOMINAL_PACKING: f64 = 0.57;
+const OUR_PACKING: f64 = 0.50;
 
 /// A surface that pivots on the cup's axis reaches the rim at tilt θ_s + atan((H − h)/R), and θ_s exceeds the heap's angle
 /// by 2 to 16° in a cup only ten grains wide. That band was found with cups filled to at most 51 mm; the fuller the cup, the
-/// larger θ_s, so of the fuller cup only the order is asserted.
+/// larger θ_s, so of the fuller cup only the order is asserted. The band reckons the level with a packing of 0.57; the last
+/// row has as many of these grains as really stand about 60 mm high.
 #[test]
 #[ignore = "a minute: cargo test --release -p sim --test pouring -- --ignored --nocapture a_cup_begins"]
 fn a_cup_begins_to_pour_where_the_surface_through_its_axis_reaches_the_stability_angle() {
     let (radius, inner, volume) = (0.035_f64, 0.090, GrainConfig::default().volume_m3());
-    let beyond: Vec<(f64, f64)> = [0.045, 0.060]
+    let beyond: Vec<(f64, f64)> = [(0.045, NOMINAL_PACKING), (0.060, NOMINAL_PACKING), (0.060, OUR_PACKING)]
         .into_iter()
-        .map(|nominal| {
+        .map(|(nominal, packing)| {
             let area = std::f64::consts::PI * radius * radius;
-            let count = (NOMINAL_PACKING * area * nominal / volume).round() as usize;
+            let count = (packing * area * nominal / volume).round() as usize;
             let (height, tilts) = tilts_deg(count, 5.0, 50.0, &[0.005, 0.05, 0.5], 3);
             let lift_deg = ((inner - nominal) / radius).atan().to_degrees();
             let beyond = tilts[1] - HEAP_DEG - lift_deg;

@@ -13,7 +13,7 @@ use crate::cutting::geometry::{ConvexCell, GeometryError};
 /// Lengths of a banana that lies on its side: its center line is an arc in the x-y plane.
 ///
 /// The origin is the middle of the center line, x its direction there, and its center of curvature lies along y.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Banana {
     /// Diameter between the ends, m.

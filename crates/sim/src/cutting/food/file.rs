@@ -8,7 +8,7 @@ use crate::cutting::geometry::Solid;
 use crate::cutting::material::Material;
 
 /// What a food file states.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FoodFile {
     /// Name, as scenarios and reports call it.

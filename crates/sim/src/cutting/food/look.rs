@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, within};
 
 /// Colors of a food: red, green and blue, each 0 to 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FoodLook {
     /// Color of the skin or crust.

@@ -10,7 +10,7 @@ use super::revolved::{Axis, ProfilePoint, revolved};
 use crate::cutting::geometry::{ConvexCell, GeometryError};
 
 /// The shape of a food. Its frame has the origin in the middle of the shape and z upwards, as it would lie on a board.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// Cuboid, parallel to the axes.
@@ -28,7 +28,7 @@ pub enum Shape {
 }
 
 /// Lengths of a cuboid.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Extent along x, m.
@@ -40,7 +40,7 @@ pub struct Block {
 }
 
 /// Lengths of a cylinder whose axis is x.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Diameter, m.
@@ -53,7 +53,7 @@ pub struct Cylinder {
 }
 
 /// Lengths of a disc whose axis is z.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
     /// Diameter, m.
@@ -68,7 +68,7 @@ pub struct Disc {
 }
 
 /// Lengths of an ellipsoid.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ellipsoid {
     /// Diameter along x, m.
@@ -83,7 +83,7 @@ pub struct Ellipsoid {
 }
 
 /// Lengths of a berry whose axis is x; the tip points along x.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Berry {
     /// Greatest diameter, m.

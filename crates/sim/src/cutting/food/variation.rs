@@ -8,7 +8,7 @@ use skills::field::{FieldError, positive, within};
 use crate::cutting::material::Material;
 
 /// How far specimens of a food differ from what its file states; a range that is absent means that they do not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FoodRange {
     /// Smallest and greatest factor on all lengths.

@@ -10,7 +10,7 @@ use super::edge::Edge;
 use super::solid::{self, Piece};
 
 /// Families of blades, as a table in a file: `blade.chef = { length_m = 0.2, … }`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum BladeFamily {
     /// Long blade with a belly to rock on; the spine falls to the point over the last third.
@@ -26,7 +26,7 @@ pub enum BladeFamily {
 }
 
 /// Lengths of a blade that is ground from a plate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BladeShape {
     /// Length of the edge along x, m.
@@ -45,7 +45,7 @@ pub struct BladeShape {
 }
 
 /// A blade with teeth.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Serration {
     /// The blade without its teeth.
@@ -57,7 +57,7 @@ pub struct Serration {
 }
 
 /// A wire in a bow.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WireShape {
     /// Length of the wire between the legs of the bow, m.

@@ -9,7 +9,7 @@ use super::family::BladeFamily;
 use super::solid::{self, MassOf, Piece};
 
 /// What a knife file states.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KnifeFile {
     /// Name, as scenarios and reports call it.
@@ -28,7 +28,7 @@ pub struct KnifeFile {
 }
 
 /// A box behind the heel, its upper side level with the spine, that the hand or flange holds in its middle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Handle {
     /// Length along the edge, m.

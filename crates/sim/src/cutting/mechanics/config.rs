@@ -4,13 +4,17 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, positive, within};
 
 /// Resolution and limits of the cutting law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CuttingConfig {
     /// Width of a column of the section and height of a cell of the recorded surface, m.
     pub cell_m: f64,
     /// Mass that the arm shows at the knife, kg: stiffness and friction are bounded so that one step cannot reverse it.
     pub effective_mass_kg: f64,
+    /// Mass that a food which is free on its board shows along the edge, kg: it gives way as far as its elasticity and this
+    /// mass say. Absent for a food that is held.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_food_kg: Option<f64>,
     /// How far the blade bends sideways before the food pushes back, m.
     pub blade_freedom_m: f64,
     /// Speed below which friction fades out, m/s.
@@ -24,6 +28,7 @@ impl Default for CuttingConfig {
         Self {
             cell_m: 0.00025,
             effective_mass_kg: 2.0,
+            free_food_kg: None,
             blade_freedom_m: 0.001,
             creep_speed_m_per_s: 0.001,
             squeeze_ratio: 1.0,
@@ -39,6 +44,7 @@ impl CuttingConfig {
     pub fn validate(&self) -> Result<(), FieldError> {
         within("cell_m", self.cell_m, 1e-5, 0.005)?;
         positive("effective_mass_kg", self.effective_mass_kg)?;
+        self.free_food_kg.map_or(Ok(()), |mass_kg| positive("free_food_kg", mass_kg))?;
         within("blade_freedom_m", self.blade_freedom_m, 0.0, 0.01)?;
         within("creep_speed_m_per_s", self.creep_speed_m_per_s, 1e-6, 0.01)?;
         within("squeeze_ratio", self.squeeze_ratio, 0.1, 10.0)

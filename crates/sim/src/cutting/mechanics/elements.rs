@@ -2,7 +2,9 @@
 
 use nalgebra::{Point2, Vector2};
 
+use super::config::Board;
 use super::front::Front;
+use super::giving::{Elasticity, Giving};
 use super::grid::SectionGrid;
 use super::law::Dent;
 use super::motion::EdgeMotion;
@@ -68,6 +70,16 @@ pub(super) struct EdgeSums {
     pub elastic: f64,
     /// Energy that made cut surface, J.
     pub fracture: f64,
+    /// Power that makes a free food give way along the edge, W.
+    pub giving: f64,
+}
+
+/// The edge at one node: its crack, and what of a free food gives way along the edge there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct EdgeElement {
+    pub giving: Giving,
+    /// Force along the edge by the speed of sliding in the last step, N s/m.
+    damping: f64,
 }
 
 /// How the edge meets the food in one step.
@@ -89,6 +101,10 @@ pub(super) struct EdgeZone {
     pub creep_speed: f64,
     /// Longest dent as a multiple of the edge's height above the board.
     pub squeeze_ratio: f64,
+    /// The board below, if any.
+    pub board: Option<Board>,
+    /// How a free food gives way along the edge, and for what length of pressing edge, m.
+    pub elasticity: Option<(Elasticity, f64)>,
     /// Length of the step, s.
     pub dt: f64,
 }
@@ -100,13 +116,13 @@ const THINNEST_GAP_M: f64 = 2e-5;
 const STEEPEST_DENT: f64 = 2.0;
 
 impl EdgeZone {
-    /// Lets the crack of one node run and adds the forces on it; `gap_to_board` is the edge's height above the board.
+    /// Lets the crack of one node run, whose edge is `at` this place of the section, and adds the forces on it.
     pub(super) fn act(
         &self,
         node: usize,
         front: &mut Front,
+        element: &mut EdgeElement,
         at: Point2<f64>,
-        gap_to_board: f64,
         motion: &EdgeMotion,
         sums: &mut EdgeSums,
     ) {
@@ -114,7 +130,11 @@ impl EdgeZone {
         let stretch = (1.0 + slope * slope).sqrt();
         let velocity = motion.velocity_at(at.x, at.y);
         let along = Vector2::new(1.0, slope) / stretch;
-        let slide = velocity.dot(&along);
+        let passing = velocity.dot(&along);
+        let slide = self.elasticity.as_ref().map_or(passing, |(elasticity, length)| {
+            element.giving.follow(passing, element.damping, width / length, elasticity)
+        });
+        let gap_to_board = self.board.map_or(f64::INFINITY, |board| board.depth_at(at.x) - at.y);
         let begun = self.resistance.is_finite();
         let (stiffness, gap) = (self.stiffness_above(gap_to_board, begun), gap_to_board.max(THINNEST_GAP_M));
         let slip = self.efficiency * slide.abs() * self.dt * stretch;
@@ -146,8 +166,10 @@ impl EdgeZone {
         };
         let speed = velocity.norm();
         let strength = tangential * width * stretch * (speed / self.creep_speed).min(1.0);
+        element.damping = if strength > 0.0 { strength / slide.abs() } else { 0.0 };
         if strength > 0.0 {
             sums.opposing.add(strength, along * slide.signum(), slide.abs(), at, motion);
+            sums.giving += strength * slide.signum() * (passing - slide);
             if begun {
                 sums.fracture += strength * slide.abs() * self.dt;
             }
@@ -169,6 +191,17 @@ pub(super) struct FlankStress {
     pub shear: f64,
     /// Speed below which it fades out, m/s.
     pub creep_speed: f64,
+    /// How a free food gives way along the flanks, and for what area, m².
+    pub elasticity: Option<(Elasticity, f64)>,
+}
+
+/// The blade inside the food in one column of the section.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FlankPatch {
+    /// Area of one flank, m².
+    pub area: f64,
+    /// Depth of its lower end, m.
+    pub depth: f64,
 }
 
 /// What one step adds up over the flanks.
@@ -188,19 +221,24 @@ impl FlankSums {
         &mut self,
         column: usize,
         grid: &SectionGrid,
-        area: f64,
-        depth: f64,
+        FlankPatch { area, depth }: FlankPatch,
         stress: &FlankStress,
+        giving: &mut Giving,
         motion: &EdgeMotion,
     ) {
         let x = 0.5 * (grid.x(column) + grid.x(column + 1));
         let at = Point2::new(x, depth - 0.5 * area / grid.pitch());
         self.area += area;
         self.moment_of_area += at.coords * area;
-        let velocity = motion.velocity_at(at.x, at.y);
+        let mut velocity = motion.velocity_at(at.x, at.y);
+        let strength_at = |speed: f64| stress.shear * area * (speed / stress.creep_speed).min(1.0);
+        if let Some((elasticity, whole)) = &stress.elasticity {
+            let before = velocity.y.hypot(giving.sliding).max(f64::MIN_POSITIVE);
+            velocity.x = giving.follow(velocity.x, strength_at(before) / before, area / whole, elasticity);
+        }
         let speed = velocity.norm();
         if speed > 0.0 {
-            let strength = stress.shear * area * (speed / stress.creep_speed).min(1.0);
+            let strength = strength_at(speed);
             self.opposing.add(strength, velocity / speed, speed, at, motion);
         }
     }

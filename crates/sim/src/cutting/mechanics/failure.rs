@@ -61,7 +61,7 @@ pub enum Failure {
 }
 
 /// What counts as failure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Thresholds {
     /// Slower than this, a driven knife stands, m/s.

@@ -25,6 +25,19 @@ pub(super) fn plane_strain(modulus: f64) -> f64 {
     modulus / (1.0 - POISSON_RATIO * POISSON_RATIO)
 }
 
+/// Stiffness along the edge over that across it. A line load on a half-space dents it by 2(1 − ν²)P/(πE) ln(d/r) across the
+/// line and shifts it by 2(1 + ν)Q/(πE) ln(d/r) along the line (Johnson, "Contact Mechanics", 1985, chapter 2).
+pub(super) fn shear_share() -> f64 {
+    1.0 - POISSON_RATIO
+}
+
+/// Stiffness along the flanks of both walls of a cut that stick to `area` of blade, N/m: of a round patch of radius a on a
+/// half-space each, 8 G a/(2 − ν) (Mindlin 1949, in Johnson's chapter 7).
+pub(super) fn flank_stiffness_n_per_m(modulus: f64, area: f64) -> f64 {
+    let shear_modulus = modulus / (2.0 * (1.0 + POISSON_RATIO));
+    2.0 * 8.0 * shear_modulus * (area / std::f64::consts::PI).sqrt() / (2.0 - POISSON_RATIO)
+}
+
 impl Walls {
     /// Force on the blade along z and moments about x and y at the knife's origin, for `area` of blade around `middle`.
     ///

@@ -14,6 +14,7 @@ mod elements;
 mod energy;
 mod failure;
 mod front;
+mod giving;
 mod grid;
 mod kinks;
 mod lateral;

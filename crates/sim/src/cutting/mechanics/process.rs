@@ -4,12 +4,13 @@ use nalgebra::{Point2, Vector3};
 use skills::field::FieldError;
 
 use super::config::{Board, CuttingConfig};
-use super::elements::{EdgeSums, EdgeZone, FlankStress, FlankSums, PlanarWrench};
+use super::elements::{EdgeElement, EdgeSums, EdgeZone, FlankPatch, FlankStress, FlankSums, PlanarWrench};
 use super::energy::Energy;
 use super::front::Front;
+use super::giving::{Elasticity, Giving};
 use super::grid::SectionGrid;
 use super::kinks::Kinks;
-use super::lateral::{Walls, plane_strain};
+use super::lateral::{Walls, flank_stiffness_n_per_m, plane_strain, shear_share};
 use super::motion::EdgeMotion;
 use super::quality::IncisionQuality;
 use super::surface::Surface;
@@ -60,6 +61,9 @@ pub struct CutStep {
 pub struct Cut {
     grid: SectionGrid,
     front: Front,
+    /// The edge at each node, and how the food gives way along the flanks in each column.
+    elements: Vec<EdgeElement>,
+    flanks: Vec<Giving>,
     surface: Surface,
     kinks: Kinks,
     material: Material,
@@ -69,6 +73,8 @@ pub struct Cut {
     stage: Stage,
     energy: Energy,
     previous: PlanarWrench,
+    /// Energy in the food that gives way along edge and flanks, J.
+    stored_along_j: f64,
     begun: bool,
     touched: bool,
     time_s: f64,
@@ -118,6 +124,8 @@ impl Cut {
         let grid = SectionGrid::new(polygons, config.cell_m)?;
         Ok(Self {
             front: Front::new(&grid, edge),
+            elements: vec![EdgeElement::default(); grid.columns() + 1],
+            flanks: vec![Giving::default(); grid.columns()],
             surface: Surface::new(&grid, config.cell_m),
             kinks: Kinks::default(),
             material: material.clone(),
@@ -127,6 +135,7 @@ impl Cut {
             stage: Stage::Approaching,
             energy: Energy::default(),
             previous: PlanarWrench::default(),
+            stored_along_j: 0.0,
             begun: false,
             touched: false,
             time_s: 0.0,
@@ -157,7 +166,7 @@ impl Cut {
         let pressing = self.front.pressing(&self.grid);
         let edge = self.press(motion, pressing, dt);
         self.cut_area_m2 = self.area_above_crack();
-        let flanks = self.rub(motion);
+        let flanks = self.rub(motion, dt);
         // edge and flanks share the momentum that a step may take
         let mass = 0.5 * self.config.effective_mass_kg;
         let (along, friction) = (edge.opposing.bounded(mass, dt), flanks.opposing.bounded(mass, dt));
@@ -165,12 +174,8 @@ impl Cut {
         self.keep_books(motion, &edge, [&along, &friction], &wrench, dt);
         let lateral = self.walls(dt).wrench(motion, flanks.area, &flanks.middle());
         self.proceed(pressing.is_some(), flanks.area);
-        let report = self.report(
-            motion,
-            wrench,
-            lateral,
-            pressing.or_else(|| (flanks.area > 0.0).then(|| (0.0, flanks.middle()))),
-        );
+        let middle = pressing.or_else(|| (flanks.area > 0.0).then(|| (0.0, flanks.middle())));
+        let report = self.report(motion, wrench, lateral, middle);
         self.kinks.note(self.begun && (pressing.is_some() || flanks.area > 0.0), report.advance_m_per_s, dt);
         Ok(report)
     }
@@ -265,6 +270,11 @@ impl Cut {
             friction: self.edge.friction,
             creep_speed: self.config.creep_speed_m_per_s,
             squeeze_ratio: self.config.squeeze_ratio,
+            board: self.board,
+            elasticity: self.config.free_food_kg.map(|mass_kg| {
+                let stiffness = shear_share() * self.material.indentation_stiffness_pa * width;
+                (Elasticity::new(stiffness, mass_kg, dt), width)
+            }),
             dt,
         }
     }
@@ -272,27 +282,37 @@ impl Cut {
     fn act(&mut self, motion: &EdgeMotion, zone: &EdgeZone) -> EdgeSums {
         let mut sums = EdgeSums::default();
         for node in 0..=self.grid.columns() {
-            if self.front.dent[node] > 0.0 && self.front.width[node] > 0.0 {
+            let element = &mut self.elements[node];
+            if self.front.dent[node] <= 0.0 || self.front.width[node] <= 0.0 {
+                *element = EdgeElement::default();
+            } else {
                 let at = Point2::new(self.grid.x(node), self.front.edge[node]);
-                let gap = self.board.map_or(f64::INFINITY, |board| board.depth_at(at.x) - at.y);
-                zone.act(node, &mut self.front, at, gap, motion, &mut sums);
+                zone.act(node, &mut self.front, element, at, motion, &mut sums);
             }
         }
         sums
     }
 
     /// Friction of the flanks in the cut, both together: 2 (τ + μ p) with the pressure p of a spread stiff food.
-    fn rub(&mut self, motion: &EdgeMotion) -> FlankSums {
+    fn rub(&mut self, motion: &EdgeMotion, dt: f64) -> FlankSums {
         let shear = 2.0 * (self.material.flank_shear_pa + self.edge.friction * self.spreading_pressure_pa());
-        let stress = FlankStress { shear, creep_speed: self.config.creep_speed_m_per_s };
+        let blade_area = |column: usize| self.front.blade_area(&self.grid, column, self.edge.blade_height_m);
+        let elasticity = self.config.free_food_kg.map(|mass_kg| {
+            let whole: f64 = (0..self.grid.columns()).map(blade_area).sum();
+            let stiffness = flank_stiffness_n_per_m(self.material.youngs_modulus_pa, whole);
+            (Elasticity::new(stiffness, mass_kg, dt), whole)
+        });
+        let stress = FlankStress { shear, creep_speed: self.config.creep_speed_m_per_s, elasticity };
         let mut sums = FlankSums::default();
         for column in 0..self.grid.columns() {
             self.surface.record(&self.grid, &self.front, column, motion);
             let area = self.front.blade_area(&self.grid, column, self.edge.blade_height_m);
-            if area > 0.0 {
+            if area <= 0.0 {
+                self.flanks[column].release();
+            } else {
                 let ends = [column, column + 1].map(|node| self.front.edge[node].min(self.front.crack[node]));
                 let depth = (0.5 * (ends[0] + ends[1])).min(self.grid.bottom());
-                sums.add(column, &self.grid, area, depth, &stress, motion);
+                sums.add(column, &self.grid, FlankPatch { area, depth }, &stress, &mut self.flanks[column], motion);
             }
         }
         sums
@@ -326,13 +346,15 @@ impl Cut {
         wrench: &PlanarWrench,
         dt: f64,
     ) {
+        let stored =
+            self.elements.iter().map(|element| &element.giving).chain(&self.flanks).map(Giving::stored_j).sum();
+        let newly_stored = stored - std::mem::replace(&mut self.stored_along_j, stored);
         self.energy.work_j -= 0.5 * (wrench.power(motion) + self.previous.power(motion)) * dt;
-        self.energy.friction_j -= friction.power(motion) * dt;
-        if !self.begun {
-            self.energy.friction_j -= along.power(motion) * dt;
-        }
+        self.energy.friction_j -= friction.power(motion) * dt + newly_stored;
+        // what a free food gives way by along the edge is lost but for what its springs store
+        self.energy.friction_j += if self.begun { edge.giving * dt } else { -along.power(motion) * dt };
         self.energy.fracture_j += edge.fracture;
-        self.energy.elastic_j = edge.elastic;
+        self.energy.elastic_j = edge.elastic + stored;
         self.previous = *wrench;
     }
 
@@ -477,6 +499,12 @@ impl Cut {
             torn_area_m2: self.torn_area_m2,
             ..IncisionQuality::of(&self.surface, &self.grid, self.edge.roughness_factor)
         }
+    }
+
+    /// Mean absolute deviation Ra of what is cut so far, m, as [`Self::quality`] tells it. Allocates nothing.
+    #[must_use]
+    pub fn mean_deviation_m(&self) -> f64 {
+        IncisionQuality::mean_deviation_m(&self.surface, &self.grid, self.edge.roughness_factor)
     }
 }
 

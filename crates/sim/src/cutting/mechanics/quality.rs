@@ -32,6 +32,15 @@ const CUTOFF_M: f64 = 0.005;
 const ALPHA: f64 = 0.469_718_639_349_826;
 
 impl IncisionQuality {
+    /// Mean absolute deviation Ra alone, m. Allocates nothing.
+    pub(super) fn mean_deviation_m(surface: &Surface, grid: &SectionGrid, roughness_factor: f64) -> f64 {
+        let Some(plane) = surface.best_plane(grid) else { return 0.0 };
+        let cells = (0..grid.columns()).flat_map(|column| surface.column(grid, column));
+        let deviations = cells.map(|cell| (cell.deviation - plane.dot(&Vector3::new(1.0, cell.x, cell.y))).abs());
+        let (count, sum) = deviations.fold((0.0_f64, 0.0), |(count, sum), deviation| (count + 1.0, sum + deviation));
+        roughness_factor * sum / count.max(1.0)
+    }
+
     /// Form and roughness of a surface, roughness multiplied by the edge's factor.
     pub(super) fn of(surface: &Surface, grid: &SectionGrid, roughness_factor: f64) -> Self {
         let Some(plane) = surface.best_plane(grid) else { return Self::default() };

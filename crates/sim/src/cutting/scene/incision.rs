@@ -3,7 +3,6 @@
 use nalgebra::{Isometry3, Point2, Point3, UnitQuaternion, Vector3};
 
 use super::edge_grip::{EdgeGrip, GripLimits};
-use super::edge_shear::EdgeShear;
 use super::knife_motion::KnifeMotion;
 use super::piece::{Lie, Piece};
 use super::record::CutRecord;
@@ -57,10 +56,7 @@ pub(super) struct Incision {
     cut: Cut,
     monitor: FailureMonitor,
     grip: EdgeGrip,
-    shear: EdgeShear,
-    /// Length of edge that pressed in the last step, m.
-    width_m: f64,
-    /// Where it pressed.
+    /// Where the edge pressed in the last step.
     pressed_in_knife: Vector3<f64>,
     tally: Tally,
     begun_s: f64,
@@ -102,7 +98,11 @@ impl Incision {
             return Ok(Err(Refused::FromTheSide));
         }
         let board = board_line(&world_from_section, &setup.board);
-        let config = CuttingConfig { effective_mass_kg: mass_kg, ..setup.config.clone() };
+        let config = CuttingConfig {
+            effective_mass_kg: mass_kg,
+            free_food_kg: Some(RIM_SHARE * piece.mass.mass_kg),
+            ..setup.config.clone()
+        };
         let planned = nearest(&setup.planned, &world_from_section, &section);
         Ok(Ok(Self {
             planned,
@@ -112,8 +112,6 @@ impl Incision {
             cut: Cut::new(&section.polygons, &setup.food.material, edge, board, &config)?,
             monitor: FailureMonitor::new(setup.thresholds.clone())?,
             grip: EdgeGrip::default(),
-            shear: EdgeShear::at_rest(),
-            width_m: 0.0,
             pressed_in_knife: knife_middle(edge),
             tally: Tally::default(),
             begun_s: time_s,
@@ -150,21 +148,17 @@ impl Incision {
     ) -> Result<Exchange, SimError> {
         let world_from_section = lie.world_from_food * self.food_from_section;
         let into_section = world_from_section.rotation.inverse();
-        let mut sliding = into_section * (knife.heel_velocity - lie.velocity_at(&knife.heel()));
+        let sliding = into_section * (knife.heel_velocity - lie.velocity_at(&knife.heel()));
         let turning = into_section * (knife.angular_velocity - lie.angular_velocity);
         let section_from_knife = world_from_section.inv_mul(&knife.world_from_knife);
         let along = section_from_knife.rotation * Vector3::x();
         let from_heel = section_from_knife.rotation * self.pressed_in_knife;
         let rim_kg = RIM_SHARE * piece_mass_kg;
         let slide = along.dot(&(sliding + turning.cross(&from_heel)));
-        let stiffness = setup.food.material.indentation_stiffness_pa * self.width_m;
-        sliding += along * (self.shear.follow(slide, stiffness, rim_kg, dt) - slide);
         let Some(motion) = EdgeMotion::from_pose(&section_from_knife, sliding, turning) else {
             return Ok(Exchange::default());
         };
         let step = self.cut.step(&motion, dt)?;
-        self.shear.note(step.force_in_section.dot(&along));
-        self.width_m = step.width_m;
         self.pressed_in_knife = pressed_point(&section_from_knife, &step, &setup.knife.edge);
         let (mut force, mut moment) = (step.force_in_section, step.moment_in_section);
         let from_heel = section_from_knife.rotation * self.pressed_in_knife;
@@ -243,6 +237,11 @@ impl Incision {
     /// Is the piece to come apart?
     pub fn is_through(&self) -> bool {
         matches!(self.cut.stage(), Stage::Separated | Stage::Fractured)
+    }
+
+    /// Mean deviation Ra of what is cut so far, m. Allocates nothing.
+    pub fn mean_deviation_m(&self) -> f64 {
+        self.cut.mean_deviation_m()
     }
 
     /// The parts of `piece` beside the cut.

@@ -12,7 +12,6 @@
 mod board_force;
 mod drawings;
 mod edge_grip;
-mod edge_shear;
 mod held;
 mod incision;
 mod knife_motion;

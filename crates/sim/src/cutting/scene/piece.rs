@@ -46,6 +46,8 @@ pub(super) struct Piece {
     pub active: Option<usize>,
     /// Whether a touch begins a cut: not while the knife that cut it off is beside it still.
     pub armed: bool,
+    /// Shade in which it is drawn.
+    pub shade: usize,
     /// None for a crumb.
     body: Option<RigidBodyHandle>,
     low: Point3<f64>,
@@ -70,7 +72,7 @@ impl Piece {
         let center = lie.world_from_food * mass.center;
         let lie = Lie { velocity: lie.velocity_at(&center), center, ..*lie };
         let body = (!solid.is_crumb()).then(|| body_of(world, &solid, &mass, material, &lie));
-        Self { name, solid, mass, lie, incisions: Vec::new(), active: None, armed, body, low, high }
+        Self { name, solid, mass, lie, incisions: Vec::new(), active: None, armed, shade: 0, body, low, high }
     }
 
     /// Takes the piece out of the engine.

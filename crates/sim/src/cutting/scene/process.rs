@@ -17,6 +17,9 @@ use crate::spatial::{
     BodyDrawing, Drawing, Event, EventLevel, News, Observer, Process, Series, SpatialWorld, Step, wrench_of,
 };
 
+/// Time between two looks at the roughness of a face, s.
+const LOOK_S: f64 = 0.02;
+
 /// A food on a board that is cut by the knife in the arm's hand.
 pub struct CuttingProcess {
     setup: CuttingSetup,
@@ -33,6 +36,10 @@ pub struct CuttingProcess {
     board_force: BoardForce,
     slip_m: f64,
     roll_rad: f64,
+    /// Ra of the face that is being cut, or was cut last.
+    roughness_m: f64,
+    /// When that is looked at next, s.
+    next_look_s: f64,
     tool_wrench: Vector6<f64>,
     wanted_heel: Option<Point3<f64>>,
     prepared: bool,
@@ -72,6 +79,8 @@ impl CuttingProcess {
             board_force: BoardForce::default(),
             slip_m: 0.0,
             roll_rad: 0.0,
+            roughness_m: 0.0,
+            next_look_s: 0.0,
             tool_wrench: Vector6::zeros(),
             wanted_heel: None,
             prepared: false,
@@ -97,12 +106,13 @@ impl CuttingProcess {
         }
     }
 
-    /// The pieces as they are now, in the order of their poses: skin, and cut faces in the color of the flesh.
+    /// The pieces as they are now, in the order of their poses: skin, in shades that tell neighbors apart, and cut faces in the
+    /// color of the flesh.
     #[must_use]
     pub fn drawings(&self) -> Vec<BodyDrawing> {
         let drawing = |piece: &Piece| BodyDrawing {
             name: piece.name.clone(),
-            drawings: vec![drawings::piece(&piece.solid, &self.setup.food.look)],
+            drawings: vec![drawings::piece(&piece.solid, &self.setup.food.look, piece.shade)],
         };
         self.pieces.iter().map(drawing).collect()
     }
@@ -113,10 +123,12 @@ impl CuttingProcess {
         drawings::series()
     }
 
-    /// What never moves: the board.
+    /// What never moves: the board, and where cuts are wanted.
     #[must_use]
     pub fn fixed(&self) -> Vec<Drawing> {
-        vec![drawings::board(&self.setup.board)]
+        let CuttingSetup { food, world_from_food, planned, board, .. } = &self.setup;
+        let wanted = planned.iter().flat_map(|cut| drawings::wanted(&food.solid, world_from_food, cut));
+        std::iter::once(drawings::board(board)).chain(wanted).collect()
     }
 
     /// Lets the edge enter pieces and old cuts, and leave them.
@@ -224,10 +236,12 @@ impl CuttingProcess {
             _ => format!("{} came apart into {count} pieces", piece.name),
         };
         self.news.event(Event { time_s, level: EventLevel::Info, text });
-        for (offset, solid) in parts.into_iter().enumerate() {
+        let shades = drawings::shades(piece.shade, self.pieces.get(index).map(|next| next.shade), count);
+        for (offset, (solid, shade)) in parts.into_iter().zip(shades).enumerate() {
             self.made += 1;
             let name = format!("{} {}", self.setup.food.name, self.made);
-            let part = Piece::insert(world, name, solid, &self.setup.food.material, &piece.lie, false);
+            let mut part = Piece::insert(world, name, solid, &self.setup.food.material, &piece.lie, false);
+            part.shade = shade;
             self.pieces.insert(index + offset, part);
         }
         self.news.bodies(self.drawings());
@@ -243,6 +257,18 @@ impl CuttingProcess {
         self.news.event(Event { time_s, level: EventLevel::Error, text: failure.to_string() });
         self.fatal.get_or_insert_with(|| failure.to_string());
         self.failure.get_or_insert(failure);
+    }
+
+    /// Looks now and then at how rough the face is that is being cut, for the curves. Allocates nothing.
+    fn look_at_faces(&mut self, time_s: f64) {
+        if time_s < self.next_look_s {
+            return;
+        }
+        self.next_look_s = time_s + LOOK_S;
+        let mut active = self.pieces.iter().filter_map(|piece| piece.incisions.get(piece.active?));
+        if let Some(incision) = active.rfind(|incision| incision.shown.depth_m > 0.0) {
+            self.roughness_m = incision.mean_deviation_m();
+        }
     }
 
     /// Reads the force on the board, and notes a blow.
@@ -292,6 +318,7 @@ impl Process for CuttingProcess {
 
     fn after_step(&mut self, step: &mut Step<'_>) -> Result<(), SimError> {
         self.feel_board(step);
+        self.look_at_faces(step.time_s);
         self.pieces.iter_mut().for_each(|piece| piece.refresh(step.world));
         if let Some(piece) = self.pieces.iter().find(|piece| !piece.lie.center.coords.norm().is_finite()) {
             let quantity = format!("the place of {} (m)", piece.name);
@@ -319,6 +346,7 @@ impl Process for CuttingProcess {
             1e3 * shown.depth_m,
             shown.slice_push_ratio,
             1e3 * shown.lateral_m,
+            1e6 * self.roughness_m,
         ]);
     }
 

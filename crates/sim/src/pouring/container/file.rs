@@ -11,7 +11,7 @@ const LARGEST_M: f64 = 1.0;
 const THINNEST_WALL_M: f64 = 0.001;
 
 /// What a container file states.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContainerFile {
     /// Name, as scenarios and reports call it.
@@ -43,7 +43,7 @@ fn default_facets() -> usize {
 }
 
 /// Shape of the hollow, a surface of revolution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Profile {
     /// Cylinder.
@@ -55,7 +55,7 @@ pub enum Profile {
 }
 
 /// Cylinder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Straight {
     /// Inner radius, m.
@@ -65,7 +65,7 @@ pub struct Straight {
 }
 
 /// Truncated cone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Cone {
     /// Inner radius at the floor, m.
@@ -77,7 +77,7 @@ pub struct Cone {
 }
 
 /// Cylinder, conical shoulder, narrower cylinder.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Bottle {
     /// Inner radius of the body, m.
@@ -93,7 +93,7 @@ pub struct Bottle {
 }
 
 /// A channel that leads out of the rim at +x: a flat bottom between two sides that come closer to each other.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spout {
     /// Width where it leaves the wall, m; rounded to a whole number of the wall's sides.

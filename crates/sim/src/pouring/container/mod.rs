@@ -5,6 +5,7 @@
 
 mod attached;
 mod file;
+mod mass;
 mod mesh;
 mod piece;
 mod profile;
@@ -12,13 +13,14 @@ mod revolved;
 mod spout;
 
 use nalgebra::{Point3, Vector3};
-use rapier3d::prelude::{ColliderBuilder, MassProperties, SharedShape};
+use rapier3d::prelude::{ColliderBuilder, SharedShape};
 use skills::field::FieldError;
 
 use super::grains::GrainConfig;
 
 pub use attached::AttachedContainer;
 pub use file::{Bottle, Cone, ContainerFile, Profile, Spout, Straight};
+pub use mass::ContainerMass;
 pub use mesh::DrawingMesh;
 pub use piece::{Piece, PieceShape};
 pub(crate) use profile::Meridian;
@@ -132,10 +134,8 @@ impl Container {
 
     /// Mass, center of mass and inertia in the container's frame: those of the pieces, scaled to the stated mass.
     #[must_use]
-    pub fn mass_properties(&self) -> MassProperties {
-        let mut properties = self.shape().density(1.0).build().mass_properties();
-        properties.set_mass(self.mass_kg, true);
-        properties
+    pub fn mass_properties(&self) -> ContainerMass {
+        ContainerMass::of(&self.mesh(), self.mass_kg)
     }
 
     /// The collider of all pieces, without mass, its origin that of the container; a wall for grains of `grain`.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, within};
 
 /// A grain's shape.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum GrainShape {
     /// Ball.
@@ -22,7 +22,7 @@ pub enum GrainShape {
 
 /// A kind of grain. The defaults are soybeans: size and density after Kibar and Öztürk (2008), restitution and friction
 /// after Boac et al. (2010), rolling friction such that a heap stands as steep as a real one, 24 to 26°.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct GrainConfig {
     /// Shape.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, positive, within};
 
 /// Limits of the classification.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct MonitorConfig {
     /// A grain outside both containers whose center is lower than this is spilt, m, world z.

@@ -82,6 +82,14 @@ pub struct PourMonitor {
     landing: LandingSpread,
     bounce_outs: usize,
     rim_hits: usize,
+    exits: Exits,
+}
+
+/// Grains that left the source, and the sum of their speeds, m/s.
+#[derive(Clone, Copy, Debug, Default)]
+struct Exits {
+    count: f64,
+    speeds: f64,
 }
 
 impl PourMonitor {
@@ -106,10 +114,12 @@ impl PourMonitor {
         let flow = FlowMeter::new(&config, grains.batch().masses_kg().sum());
         let landing = LandingSpread::with_room_for(grains.len());
         let (counts, bounce_outs, rim_hits) = (Counts::default(), 0, 0);
-        let mut monitor = Self { config, source, target, traces, counts, flow, landing, bounce_outs, rim_hits };
+        let exits = Exits::default();
+        let mut monitor = Self { config, source, target, traces, counts, flow, landing, bounce_outs, rim_hits, exits };
         monitor.look(physics, grains, 0.0);
         // the first look only finds out where everything is
         (monitor.bounce_outs, monitor.rim_hits) = (0, 0);
+        monitor.exits = Exits::default();
         monitor.landing.clear();
         monitor.traces.iter_mut().for_each(|trace| trace.landed = false);
         monitor.flow.start();
@@ -155,7 +165,11 @@ impl PourMonitor {
             }
             self.bounce_outs += usize::from(trace.place == Place::Target && place != Place::Target);
             match (trace.place == Place::Source, place == Place::Source) {
-                (true, false) => self.flow.note(trace.mass_kg),
+                (true, false) => {
+                    self.flow.note(trace.mass_kg);
+                    self.exits.count += 1.0;
+                    self.exits.speeds += speed;
+                }
                 (false, true) => self.flow.note(-trace.mass_kg),
                 _ => {}
             }
@@ -245,6 +259,12 @@ impl PourMonitor {
     #[must_use]
     pub fn flow_variation(&self) -> f64 {
         self.flow.variation()
+    }
+
+    /// Mean speed of the grains as they leave the source, m/s; 0 if none did.
+    #[must_use]
+    pub fn exit_speed_m_per_s(&self) -> f64 {
+        self.exits.speeds / self.exits.count.max(1.0)
     }
 
     /// How many times the flow stopped while the source was tilted and not yet empty.

@@ -1,16 +1,16 @@
 //! A container as the tool of an arm: gripped round its wall from the side.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 use skills::field::{FieldError, finite, within};
 
-use crate::pouring::container::{Container, DrawingMesh};
+use crate::pouring::container::Container;
 use crate::spatial::{Drawing, DrawnShape, HeldTool, Rgba, TriangleMesh};
 
 /// How a two-finger hand holds a cup: fingers on both sides of the wall, the hand's approach across the axis.
 ///
 /// The gripping frame is that of the hand: z out of the hand, y along the way of the fingers. It lies on the cup's axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Grip {
     /// Height of the fingers above the underside of the cup, m; half of the cup's height if absent.
@@ -56,36 +56,16 @@ impl Grip {
 /// [`super::PouringProcess`] lends the container's colliders, with the friction of walls for grains, to the hand.
 #[must_use]
 pub fn held_container(container: &Container, grip_from_tool: &Isometry3<f64>, color: Rgba) -> HeldTool {
-    let (center, inertia_kg_m2) = mass_distribution(&container.mesh(), container.mass_kg);
+    let mass = container.mass_properties();
     HeldTool {
         name: container.name.clone(),
-        mass_kg: container.mass_kg,
-        center_of_mass_m: center,
-        inertia_kg_m2,
+        mass_kg: mass.mass_kg,
+        center_of_mass_m: mass.center_m,
+        inertia_kg_m2: mass.inertia_kg_m2,
         grip_from_tool: *grip_from_tool,
         pieces: Vec::new(),
         drawings: vec![container_drawing(container, &Isometry3::identity(), color)],
     }
-}
-
-/// Center of mass, m, and inertia about it, kg m², of a solid of uniform density between triangles that face outward: sums over
-/// the tetrahedra between each triangle and the origin. Where closed parts overlap, the overlap counts for each.
-///
-/// Not by the engine's mass properties of compounds, whose inertia of a body of revolution comes out with its axes exchanged.
-fn mass_distribution(mesh: &DrawingMesh, mass_kg: f64) -> (Point3<f64>, Matrix3<f64>) {
-    let (mut volume, mut moment, mut second) = (0.0, Vector3::zeros(), Matrix3::zeros());
-    let corner = |index: u32| mesh.points.get(index as usize).map_or_else(Vector3::zeros, |point| point.coords);
-    for [a, b, c] in mesh.triangles.iter().map(|triangle| triangle.map(corner)) {
-        let part = a.dot(&b.cross(&c)) / 6.0;
-        let sum = a + b + c;
-        volume += part;
-        moment += sum * (part / 4.0);
-        let squares = a * a.transpose() + b * b.transpose() + c * c.transpose();
-        second += (squares + sum * sum.transpose()) * (part / 20.0);
-    }
-    let center = moment / volume;
-    let spread = (second / volume - center * center.transpose()) * mass_kg;
-    (center.into(), Matrix3::identity() * spread.trace() - spread)
 }
 
 /// How a container looks, placed at `body_from_container`.
@@ -98,6 +78,8 @@ pub fn container_drawing(container: &Container, body_from_container: &Isometry3<
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
     use crate::pouring::{ContainerFile, Profile, Straight};
 
@@ -127,20 +109,6 @@ mod tests {
             assert!((cup_from_grip * Vector3::y()).cross(&Vector3::x()).norm() < 1e-12);
             assert!((cup_from_grip * Point3::origin() - Point3::new(0.0, 0.0, 0.0465)).norm() < 1e-12);
         }
-    }
-
-    #[test]
-    fn a_block_has_the_inertia_of_the_textbook() {
-        let corner = |index: usize, bit: usize, half: f64| if index & bit == 0 { -half } else { half };
-        let place = |i: usize| Point3::new(0.3 + corner(i, 1, 0.1), corner(i, 2, 0.2), corner(i, 4, 0.3));
-        let quads = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-        let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect();
-        let mesh = DrawingMesh { points: (0..8).map(place).collect(), triangles };
-        let (center, inertia) = mass_distribution(&mesh, 3.0);
-        assert!((center - Point3::new(0.3, 0.0, 0.0)).norm() < 1e-12);
-        // m (b² + c²)/12 of edges 0.2, 0.4, 0.6
-        let expected = Matrix3::from_diagonal(&Vector3::new(0.13, 0.10, 0.05));
-        assert!((inertia - expected).norm() < 1e-12, "{inertia}");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Pouring with an arm: the cup in its hand, grains in it, and the container that they are poured into.
 
+mod arm_height;
 mod clearance;
 mod gauge;
 mod held;
@@ -19,6 +20,7 @@ use super::monitor::{MonitorConfig, Place, PourMonitor};
 use crate::error::SimError;
 use crate::spatial::{GrainDescription, Process, Rgba, Series, SpatialArm, SpatialWorld, Step, wrench_of};
 
+use arm_height::ArmHeight;
 pub use clearance::VesselClearance;
 pub use gauge::{PourGauge, PourReading};
 pub use held::{Grip, container_drawing, held_container};
@@ -36,7 +38,7 @@ const GRAMS: f64 = 1e3;
 const MM: f64 = 1e3;
 
 /// The table top, at height 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TableConfig {
     /// Coefficient of friction between table and grain.
@@ -94,6 +96,7 @@ struct Running {
     lip: LipWatch,
     target_touches: Touches,
     table_touches: Touches,
+    arm_height: ArmHeight,
 }
 
 impl PouringProcess {
@@ -129,7 +132,7 @@ impl PouringProcess {
     pub fn result(&self) -> Option<PourResult> {
         let running = self.running.as_ref()?;
         let touches = [running.target_touches.count(), running.table_touches.count()];
-        Some(PourResult::new(&running.monitor, running.lip.report(), touches))
+        Some(PourResult::new(&running.monitor, running.lip.report(), touches, running.arm_height.least_m()))
     }
 }
 
@@ -156,6 +159,7 @@ impl Running {
             lip,
             target_touches: Touches::between(colliders.0, colliders.1),
             table_touches: Touches::between(colliders.0, table),
+            arm_height: ArmHeight::new(arm),
         })
     }
 
@@ -222,6 +226,7 @@ impl Process for PouringProcess {
         running.lip.look(&running.monitor, physics);
         running.target_touches.look(physics, step.time_step_s);
         running.table_touches.look(physics, step.time_step_s);
+        running.arm_height.look(step.arm, step.world, step.time_s);
         let origin = Point3::from(step.arm.world_from_tool(step.world).translation.vector);
         self.gauge.set(running.reading(&step.world.physics, &origin));
         Ok(())

@@ -31,6 +31,8 @@ pub struct PourResult {
     pub peak_flow_kg_per_s: f64,
     /// Standard deviation of the flow over its mean.
     pub flow_variation: f64,
+    /// Mean speed of the grains as they left the cup, m/s.
+    pub exit_speed_m_per_s: f64,
     /// Times that the flow stopped in a tilted cup.
     pub clogs: usize,
     /// Times that a grain left the target again.
@@ -51,10 +53,18 @@ pub struct PourResult {
     pub target_touches: usize,
     /// Times that the cup touched the table.
     pub table_touches: usize,
+    /// Height of the lowest point of the arm's links above the table, but for the base and its first link, m; infinite if the
+    /// arm's model states no shapes that collide.
+    pub arm_above_table_m: f64,
 }
 
 impl PourResult {
-    pub(super) fn new(monitor: &PourMonitor, lip: LipReport, [target_touches, table_touches]: [usize; 2]) -> Self {
+    pub(super) fn new(
+        monitor: &PourMonitor,
+        lip: LipReport,
+        [target_touches, table_touches]: [usize; 2],
+        arm_above_table_m: f64,
+    ) -> Self {
         let landing = monitor.landing();
         Self {
             counts: monitor.counts(),
@@ -67,6 +77,7 @@ impl PourResult {
             mean_flow_kg_per_s: monitor.mean_flow_kg_per_s(),
             peak_flow_kg_per_s: monitor.peak_flow_kg_per_s(),
             flow_variation: monitor.flow_variation(),
+            exit_speed_m_per_s: monitor.exit_speed_m_per_s(),
             clogs: monitor.clogs(),
             bounce_outs: monitor.bounce_outs(),
             rim_hits: monitor.rim_hits(),
@@ -77,6 +88,7 @@ impl PourResult {
             lip,
             target_touches,
             table_touches,
+            arm_above_table_m,
         }
     }
 }
