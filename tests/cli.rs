@@ -37,6 +37,12 @@ fn help_teaches() {
             &["demonstrate", "--help"],
             &["demonstrations.json", "time_s, tool_x_m", "assets = [", "Examples:", "Exit codes"],
         ),
+        (
+            &["sweep", "--help"],
+            &["[[factor]]", "log_uniform", "journal/", "SLURM_ARRAY_TASK_ID", "Examples:", "Exit codes"],
+        ),
+        (&["plan", "--help"], &["manifest.jsonl", "Examples:", "Exit codes"]),
+        (&["check", "--help"], &["--set", "scenarios/sweeps", "Exit codes"]),
         (&["gains", "--help"], &["docs/arm.md", "--robot", "--frame", "Examples:", "Exit codes"]),
         (&["--version"], &["wield "]),
     ] {
@@ -118,7 +124,8 @@ fn assets_that_few_scenarios_name_are_listed_once_there_are_some() {
 #[test]
 fn every_shipped_scenario_passes_its_check() {
     let folder = tempfile::tempdir().unwrap();
-    for entry in fs::read_dir(Path::new(PROJECT).join("scenarios")).unwrap().flatten() {
+    let entries = |folder: &str| fs::read_dir(Path::new(PROJECT).join(folder)).unwrap().flatten();
+    for entry in entries("scenarios").chain(entries("scenarios/sweeps")).filter(|entry| entry.path().is_file()) {
         let file = entry.path().display().to_string();
         let output = wield(folder.path(), &["check", &file]);
         assert_eq!((output.status.code(), stdout(&output)), (Some(0), format!("ok {file}\n")), "{}", stderr(&output));

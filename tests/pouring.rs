@@ -31,10 +31,39 @@ fn a_small_pour_is_collected_without_a_touch_and_repeats_itself_byte_by_byte() {
 }
 
 #[test]
+fn the_outcome_does_not_depend_on_the_number_of_threads() {
+    let text = few_beans("pour_wide_bowl.toml", 30);
+    assert_eq!(Pour::pair_on_threads(&text, 1), Pour::pair_on_threads(&text, 2));
+}
+
+#[test]
+fn a_cup_that_strikes_the_target_is_counted_and_fails_the_run() {
+    // the plain primitive moves a jug as a narrower cup was shown: its wall strikes the neck of the bottle
+    let text = few_beans("pour_plain_dmp.toml", 20).replace("asset = \"source_cup\"", "asset = \"jug\"");
+    let shown = "[demonstrations.synthetic]\nsource = \"source_cup\"";
+    let pour = Pour::of(&text.replace("[demonstrations.synthetic]", shown), 1);
+    assert!(pour.count("cup_touches") > 0, "{}", pour.text);
+    assert_eq!(pour.code, Some(1));
+    pour.assert_conserved(20);
+}
+
+#[test]
+fn an_arm_that_goes_through_the_table_fails_the_run() {
+    let low = few_beans("pour_wide_bowl.toml", 20).replace("options.floor_m = 0.03", "options.floor_m = 0.005");
+    let pour = Pour::of(&low, 1);
+    assert!(pour.value("arm_above_table_mm") < 0.0);
+    assert_eq!(pour.code, Some(1));
+}
+
+#[test]
 fn a_bowl_out_of_reach_is_refused_before_anything_moves() {
     let pour = Pour::shipped("pour_out_of_reach.toml", 1);
     assert_eq!(pour.code, Some(1));
-    pour.assert_infeasible(&["s of the plan"]);
+    pour.assert_infeasible(&[
+        "plan pour: the underside of the cup",
+        " m out of reach of `panda`",
+        "move the container nearer",
+    ]);
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! README.md does what it shows: its console blocks are run in order, in a fresh copy of scenarios and assets.
+//! README.md and the guides do what they show: the console blocks of each are run in order, in a fresh copy of scenarios
+//! and assets.
 //!
 //! In a `console` block a line that begins with `$ ` is a command, the lines after it are parts of what it prints: each
 //! must be printed, spaces apart. `…` stands for anything. A command must end with exit code 0, unless `$ echo $?` follows.
@@ -13,7 +14,7 @@ use std::process::Command;
 
 use program::PROJECT;
 
-/// How the program is run from a checkout.
+/// How the program is run from a checkout; the guides call it `wield`.
 const FROM_CHECKOUT: &str = "cargo run --release --";
 
 /// Commands that are not run: they test this program, install or open a viewer, or wait for one.
@@ -32,14 +33,15 @@ struct Step {
     shown: Vec<String>,
 }
 
-fn steps(readme: &str) -> Vec<Step> {
+fn steps(page: &Path) -> Vec<Step> {
+    let readme = fs::read_to_string(page).unwrap();
     let mut steps: Vec<Step> = Vec::new();
     let blocks = readme.split("```console\n").skip(1).filter_map(|rest| Some(rest.split_once("\n```")?.0));
     for line in blocks.flat_map(str::lines) {
         match (line.strip_prefix("$ "), steps.last_mut()) {
             (Some(command), _) => steps.push(Step { command: command.to_owned(), shown: Vec::new() }),
             (None, Some(step)) => step.shown.push(line.to_owned()),
-            (None, None) => panic!("README.md: a console block begins with {line:?}; expected a command"),
+            (None, None) => panic!("{}: a console block begins with {line:?}; expected a command", page.display()),
         }
     }
     steps
@@ -78,7 +80,7 @@ fn matches(shown: &str, printed: &str) -> bool {
 }
 
 /// Asserts that every line shown is printed, in the order shown.
-fn assert_shown(step: &Step, printed: &str) {
+fn assert_shown(page: &str, step: &Step, printed: &str) {
     let mut lines = printed.lines();
     for shown in &step.shown {
         // a build without its recorder tells of no recording
@@ -88,7 +90,7 @@ fn assert_shown(step: &Step, printed: &str) {
         let found = shown == "…" || lines.any(|line| matches(shown, line));
         assert!(
             found,
-            "README.md: `{}` does not print the line {shown:?} where it is shown; it prints:\n{printed}",
+            "{page}: `{}` does not print the line {shown:?} where it is shown; it prints:\n{printed}",
             step.command
         );
     }
@@ -96,7 +98,7 @@ fn assert_shown(step: &Step, printed: &str) {
 
 #[test]
 fn the_readme_does_what_it_shows() {
-    let steps = steps(&fs::read_to_string(Path::new(PROJECT).join("README.md")).unwrap());
+    let steps = steps(&Path::new(PROJECT).join("README.md"));
     assert!(steps.iter().any(|step| step.command.starts_with(FROM_CHECKOUT)), "README.md shows no run");
     for command in NOT_RUN {
         assert!(
@@ -104,6 +106,23 @@ fn the_readme_does_what_it_shows() {
             "README.md no longer shows `{command}`; drop it here"
         );
     }
+    assert_run("README.md", &steps);
+}
+
+#[test]
+fn the_guides_do_what_they_show() {
+    let folder = Path::new(PROJECT).join("docs/guides");
+    let mut pages: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    pages.retain(|page| page.extension().is_some_and(|ending| ending == "md"));
+    pages.sort();
+    assert!(pages.len() >= 4, "{pages:?}");
+    for page in pages {
+        assert_run(&page.file_name().unwrap().to_string_lossy(), &steps(&page));
+    }
+}
+
+/// Runs the commands of a page in a fresh copy of scenarios and assets, and asserts that they print what it shows.
+fn assert_run(page: &str, steps: &[Step]) {
     let folder = tempfile::tempdir().unwrap();
     for part in ["scenarios", "assets"] {
         copy(&Path::new(PROJECT).join(part), &folder.path().join(part));
@@ -111,7 +130,8 @@ fn the_readme_does_what_it_shows() {
     let mut steps = steps.iter().filter(|step| !NOT_RUN.contains(&step.command.as_str())).peekable();
     while let Some(step) = steps.next() {
         let program = format!("'{}'", env!("CARGO_BIN_EXE_wield"));
-        let line = step.command.replace(FROM_CHECKOUT, &program);
+        let installed = step.command.strip_prefix("wield ").map(|rest| format!("{program} {rest}"));
+        let line = installed.unwrap_or_else(|| step.command.replace(FROM_CHECKOUT, &program));
         let mut shell = Command::new("sh");
         shell.args(["-c", &line]).current_dir(folder.path()).env_remove("WIELD_ASSETS");
         let output = shell.output().unwrap();
@@ -119,8 +139,8 @@ fn the_readme_does_what_it_shows() {
         let ended = steps.next_if(|next| next.command == "echo $?");
         let expected = ended.map_or("0", |ended| ended.shown.first().map_or("", String::as_str));
         let code = output.status.code().map_or_else(|| "a signal".into(), |code| code.to_string());
-        assert_eq!(code, expected, "README.md: `{}` ends with another exit code; it prints:\n{printed}", step.command);
-        assert_shown(step, &printed);
+        assert_eq!(code, expected, "{page}: `{}` ends with another exit code; it prints:\n{printed}", step.command);
+        assert_shown(page, step, &printed);
     }
 }
 

@@ -24,6 +24,9 @@ const ROWS: usize = 1002;
 /// grains' places are 3.6 MB.
 const LARGEST_FILE: u64 = 9_000_000;
 
+/// Where push_stick brings its object, m.
+const GOAL_M: [f64; 2] = [-0.055, 0.125];
+
 /// Viewers get two seconds at the end; a loaded machine may be slower.
 const BOUNDED: Duration = Duration::from_secs(4);
 
@@ -134,6 +137,24 @@ fn a_file_holds_a_run_in_space() {
     assert_eq!(flow, [last.flow]);
 
     assert!(bytes < LARGEST_FILE, "{bytes} bytes");
+}
+
+/// Recordings made by earlier versions, by the version of the recorder; the run of each is push_stick in open loop with seed 1,
+/// which ended 0.831 mm from its goal.
+#[test]
+fn recordings_of_earlier_versions_are_read_as_ever() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/recording/earlier");
+    let files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert!(!files.is_empty());
+    for file in files {
+        let found = read(&file);
+        let [x, y, _] = found.places["/plane/object"].map(f64::from);
+        // positions are kept in single precision, in meters
+        let goal_error_mm = 1e3 * (x - GOAL_M[0]).hypot(y - GOAL_M[1]);
+        assert!((goal_error_mm - 0.8309).abs() < 0.001, "{}: {goal_error_mm}", file.display());
+        assert!(found.properties.iter().any(|name| name == "seed"), "{:?}", found.properties);
+        assert_eq!(found.activations, vec![(true, true)], "one layout, put in force");
+    }
 }
 
 #[test]

@@ -83,13 +83,13 @@ fn a_file_of_another_version_or_damaged_is_refused_with_its_place() {
     let duration = unsummed.lines().find(|line| line.starts_with("duration_s")).unwrap().to_owned();
     let cases: [(String, &[&str]); 8] = [
         (
-            replaced(&good, "version = 1", "version = 2"),
-            &["skills of another version", "own.toml:5:11", "found version 2; expected version 1; learn"],
+            replaced(&good, "version = 2", "version = 3"),
+            &["skills of another version", "own.toml:5:11", "found version 3; expected version 2; learn"],
         ),
         (replaced(&good, "wield-skills", "other"), &["this is no file of skills", "own.toml:4:10", "found \"other\""]),
         (
             replaced(&good, "surface = \"side\"", "surface = \"head\""),
-            &["damaged or edited after it was written", "own.toml:6:12", "delete this line"],
+            &["damaged or edited after it was written", "own.toml:7:12", "delete this line"],
         ),
         (good[..good.len() / 2].to_owned(), &["this is not valid TOML", "own.toml:"]),
         (

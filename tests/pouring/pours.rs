@@ -42,6 +42,23 @@ impl Pour {
         Self { code: output.status.code(), outcome: serde_json::from_str(&text).unwrap_or_default(), text }
     }
 
+    /// Outcomes of two seeds, run on so many threads.
+    pub fn pair_on_threads(text: &str, threads: usize) -> [String; 2] {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("pour.toml"), text).unwrap();
+        let assets = Path::new(PROJECT).join("assets");
+        let threads = threads.to_string();
+        let trials = ["--trials", "2", "--seed", "1", "--threads", &threads];
+        let arguments = [&["run", "pour.toml", "--no-record", "--quiet", "--out", "o"][..], &trials].concat();
+        let output = wield(folder.path(), Some(&assets), &arguments);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        [1, 2].map(|seed| {
+            let outcome = fs::read_to_string(folder.path().join(format!("o/seed-{seed}/outcome.json")));
+            assert!(outcome.is_ok(), "{told}");
+            outcome.unwrap()
+        })
+    }
+
     /// Runs a shipped scenario as it is.
     pub fn shipped(file: &str, seed: u64) -> Self {
         Self::of(&shipped(file), seed)

@@ -2,9 +2,10 @@
 
 use crate::pours::{Pour, few_beans, shipped};
 
-/// Seeds of each scenario; `WIELD_POUR_SEEDS` asks for another number.
-fn seeds() -> std::ops::RangeInclusive<u64> {
-    1..=std::env::var("WIELD_POUR_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(20)
+/// Seeds of each scenario, none of which a setting was chosen on; `WIELD_POUR_SEEDS` asks for another number.
+fn seeds() -> std::ops::Range<u64> {
+    let count: u64 = std::env::var("WIELD_POUR_SEEDS").ok().and_then(|text| text.parse().ok()).unwrap_or(20);
+    21..21 + count
 }
 
 fn told(name: &str, seed: u64, pour: &Pour) {
@@ -22,7 +23,7 @@ fn told(name: &str, seed: u64, pour: &Pour) {
 }
 
 #[test]
-#[ignore = "40 pours, half an hour; cargo test --release -p scenarios --test pouring -- --ignored --nocapture bowl_and_cup"]
+#[ignore = "40 pours, ten minutes; cargo test --release -p scenarios --test pouring -- --ignored --nocapture bowl_and_cup"]
 fn bowl_and_cup_take_all_but_a_hundredth_without_a_touch() {
     for file in ["pour_wide_bowl.toml", "pour_wide_cup.toml"] {
         for seed in seeds() {
@@ -36,29 +37,38 @@ fn bowl_and_cup_take_all_but_a_hundredth_without_a_touch() {
 }
 
 #[test]
-#[ignore = "60 pours, an hour; cargo test --release -p scenarios --test pouring -- --ignored --nocapture the_bottle_spills"]
-fn the_bottle_spills_more_than_the_bowl_in_every_seed_and_a_spout_less() {
+#[ignore = "100 pours, half an hour; cargo test --release -p scenarios --test pouring -- --ignored --nocapture the_bottle_spills"]
+fn the_bottle_spills_more_than_bowl_and_cup_in_every_seed_a_spout_less_and_the_plain_primitive_more() {
+    let (mut sums, mut fewer, mut seeds_run) = ([0.0; 3], [0, 0], 0);
     for seed in seeds() {
-        let pours = ["pour_wide_bowl.toml", "pour_tall_bottle.toml", "pour_spout_bottle.toml"]
-            .map(|file| (file, Pour::shipped(file, seed)));
+        let files = ["wide_bowl", "wide_cup", "tall_bottle", "spout_bottle", "plain_dmp"];
+        let pours =
+            files.map(|name| format!("pour_{name}.toml")).map(|file| (file.clone(), Pour::shipped(&file, seed)));
         pours.iter().for_each(|(file, pour)| told(file, seed, pour));
-        let [bowl, bottle, spout] = pours.map(|(_, pour)| {
+        let [bowl, cup, bottle, spout, plain] = pours.map(|(_, pour)| {
             pour.assert_conserved(300);
             assert_eq!(pour.count("cup_touches"), 0);
             pour.value("spilt_percent")
         });
-        assert!(bottle > bowl && bottle > 1.0, "{bottle} {bowl}");
-        assert!(spout < bottle, "{spout} {bottle}");
+        assert!(bottle > bowl && bottle > cup && bottle > 1.0, "{bottle} {bowl} {cup}");
+        sums.iter_mut().zip([bottle, spout, plain]).for_each(|(sum, value)| *sum += value);
+        fewer[0] += usize::from(spout < bottle);
+        fewer[1] += usize::from(bottle < plain);
+        seeds_run += 1;
     }
+    let [bottle, spout, plain] = sums.map(|sum| sum / f64::from(seeds_run));
+    println!("mean spilt: bottle {bottle:.1} %, with a spout {spout:.1} %, by the plain primitive {plain:.1} %");
+    println!("fewer with the spout in {} of {seeds_run}, than by the plain primitive in {}", fewer[0], fewer[1]);
+    assert!(spout < bottle && bottle < plain);
 }
 
 #[test]
-#[ignore = "10 pours of 600 beans, half an hour; cargo test --release -p scenarios --test pouring -- --ignored --nocapture wanted"]
-fn a_wanted_amount_is_poured_within_ten_grams() {
-    for seed in seeds().take(10) {
+#[ignore = "20 pours of 600 beans, half an hour; cargo test --release -p scenarios --test pouring -- --ignored --nocapture wanted"]
+fn a_wanted_amount_is_poured_within_the_tolerance_of_packed_goods() {
+    for seed in seeds() {
         let pour = Pour::shipped("pour_amount.toml", seed);
         println!("{seed}: {:.2} g off", pour.value("fill_error_g"));
-        assert!(pour.value("fill_error_size_g") <= 10.0);
+        assert!(pour.value("fill_error_size_g") <= 4.5);
         pour.assert_conserved(600);
     }
 }
@@ -73,9 +83,9 @@ fn an_expected_weight_lowers_the_error_of_the_tool() {
 }
 
 #[test]
-#[ignore = "pours with three time steps, two minutes; cargo test --release -p scenarios --test pouring -- --ignored --nocapture time_step"]
+#[ignore = "pours with four time steps, two minutes; cargo test --release -p scenarios --test pouring -- --ignored --nocapture time_step"]
 fn a_smaller_time_step_pours_alike() {
-    let tilts = [(0.001, 2), (0.001, 4), (0.0005, 2)].map(|(step_s, substeps)| {
+    let tilts = [(0.002, 4), (0.001, 2), (0.001, 4), (0.0005, 2)].map(|(step_s, substeps)| {
         let engine = format!("\n[engine]\ntime_step_s = {step_s}\nsubsteps = {substeps}\n");
         let pour = Pour::of(&(few_beans("pour_wide_bowl.toml", 150) + &engine), 1);
         assert_eq!(pour.count("spilt_count"), 0);

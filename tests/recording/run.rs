@@ -31,6 +31,7 @@ pub fn scenario() -> ResolvedScenario {
         name: "push_stick".into(),
         arm: robot::Manipulator::from_urdf_str(&read("assets/robots/planar_3r.urdf")).unwrap(),
         source,
+        assets: Vec::new(),
         task: ResolvedTask::Push(Box::new(push)),
     }
 }

@@ -34,7 +34,7 @@ pub enum AssetKind {
 impl AssetKind {
     /// Folder inside the folder of assets.
     #[must_use]
-    pub fn folder(self) -> &'static str {
+    pub const fn folder(self) -> &'static str {
         match self {
             Self::Tool => "tools",
             Self::Robot => "robots",
@@ -58,7 +58,7 @@ impl AssetKind {
 
     /// What one of them is called.
     #[must_use]
-    pub fn noun(self) -> &'static str {
+    pub const fn noun(self) -> &'static str {
         match self {
             Self::Tool => "tool",
             Self::Robot => "robot",

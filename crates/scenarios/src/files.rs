@@ -1,5 +1,6 @@
 //! Writing files: under a temporary name in the same folder, then renamed, so that no half-written file is ever seen.
 
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,10 +9,29 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// If the folder cannot be written to; the old file, if any, is then untouched.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// Writes to `path` what `write` hands over piece by piece, replacing what stood there.
+///
+/// # Errors
+/// If the folder cannot be written to, or that of `write`; the old file, if any, is then untouched.
+pub fn write_with(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     refuse_what_is_no_file(path)?;
     let mut file = temporary_beside(path)?;
-    file.write_all(bytes)?;
+    write(file.as_file_mut())?;
     file.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// Writes `bytes` to `path`, where nothing may stand yet.
+///
+/// # Errors
+/// If something stands there, with [`io::ErrorKind::AlreadyExists`], or if the folder cannot be written to.
+pub fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = temporary_beside(path)?;
+    file.write_all(bytes)?;
+    file.persist_noclobber(path).map_err(|error| error.error)?;
     Ok(())
 }
 
@@ -101,6 +121,16 @@ mod tests {
         write_whole(&path, b"one").unwrap();
         write_whole(&path, b"two").unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_new_file_takes_no_others_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.toml");
+        write_new(&path, b"one").unwrap();
+        assert_eq!(write_new(&path, b"two").unwrap_err().kind(), io::ErrorKind::AlreadyExists);
+        assert_eq!(std::fs::read(&path).unwrap(), b"one");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 

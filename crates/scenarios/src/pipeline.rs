@@ -5,7 +5,7 @@ use std::time::Instant;
 use sim::{planar, spatial};
 
 use crate::outcome::Outcome;
-use crate::scenario::{ResolvedScenario, SkillsFile};
+use crate::scenario::{KeptSkills, ResolvedScenario};
 use crate::tasks::{ShownTrial, StageError, Task};
 
 /// What a run leaves behind.
@@ -62,7 +62,7 @@ pub fn learn(
     scenario: &ResolvedScenario,
     seed: u64,
     progress: Progress<'_>,
-) -> Result<Result<SkillsFile, String>, RunError> {
+) -> Result<Result<KeptSkills, String>, RunError> {
     scenario.task.part().start(scenario, seed).learn(progress)
 }
 
@@ -119,11 +119,11 @@ pub(crate) fn run_task<T: Task>(
 }
 
 /// Runs the verbs of a task up to learning.
-pub(crate) fn learn_task<T: Task>(task: &T, progress: Progress<'_>) -> Result<Result<SkillsFile, String>, RunError> {
+pub(crate) fn learn_task<T: Task>(task: &T, progress: Progress<'_>) -> Result<Result<KeptSkills, String>, RunError> {
     let mut clock = Stages { timings_s: Vec::new(), at: "", progress };
     let mut verbs = || {
         let shown = clock.stage("demonstrate", || task.demonstrations(progress))?;
-        clock.stage("learn", || task.save(&task.learn(&shown)?))
+        clock.stage("learn", || task.save(&shown, &task.learn(&shown)?))
     };
     match verbs() {
         Ok(skills) => Ok(Ok(skills)),

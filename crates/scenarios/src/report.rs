@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::outcome::{Limit, Measure, Outcome};
 use crate::pipeline::Report;
+use crate::sweep::{LevelSummary, SweepSummary};
 use crate::tasks::DemonstrationsReport;
 use crate::trials::{Summary, Trial, TrialsReport};
 
@@ -62,6 +63,44 @@ pub fn trials_text(report: &TrialsReport) -> String {
     text
 }
 
+/// Describes a campaign: how its runs ended, altogether and for each level of each factor that has few.
+#[must_use]
+pub fn sweep_text(summary: &SweepSummary) -> String {
+    let LevelSummary { done, success, missed, crashed, refused, success_interval_95, .. } = &summary.all;
+    let [low, high] = success_interval_95.map(|share| 100.0 * share);
+    let rate = 100.0 * summary.all.success_rate().unwrap_or(0.0);
+    let mut text = format!(
+        "{}: {done} of {} runs: {success} success, {missed} missed, {crashed} crashed, {refused} refused\n\
+         success rate: {rate:.1} % (95 % interval {low:.1} to {high:.1} %, Wilson)\n",
+        summary.scenario, summary.planned
+    );
+    for factor in summary.factors.iter().filter(|factor| factor.levels.len() > 1) {
+        text += &format!("{}\n", levels_table(&factor.key, &factor.levels, &summary.all));
+    }
+    text
+}
+
+/// A line for each level: runs, success rate with its interval, medians of the judged measures.
+fn levels_table(key: &str, levels: &[LevelSummary], all: &LevelSummary) -> Table {
+    let medians = all.measures.iter().map(|measure| format!("median {} ({})", measure.name, measure.unit));
+    let header = [key.to_owned(), "runs".into(), "success".into(), "95 % interval".into()];
+    let mut table = table(header.into_iter().chain(medians).collect());
+    for level in levels {
+        let [low, high] = level.success_interval_95.map(|share| 100.0 * share);
+        let value = level.value.as_ref().map_or_else(String::new, ToString::to_string);
+        let rate = level.success_rate().map_or_else(|| "none".into(), |rate| format!("{:.1} %", 100.0 * rate));
+        let median = |name: &str| level.measures.iter().find(|measure| measure.name == name);
+        let medians = all
+            .measures
+            .iter()
+            .map(|measure| median(&measure.name).map_or_else(|| "none".into(), |measure| number(measure.median)));
+        let cells = [value, level.done.to_string(), rate, format!("{low:.1} to {high:.1} %")];
+        table.add_row(cells.into_iter().chain(medians));
+    }
+    align_right(&mut table, 1..4 + all.measures.len());
+    table
+}
+
 /// Describes what a synthetic human showed: a line for each trial, and why there are too few successes if so.
 #[must_use]
 pub fn demonstrations_text(report: &DemonstrationsReport) -> String {
@@ -113,7 +152,7 @@ fn limit_text(limit: Option<Limit>, unit: &str) -> String {
     }
 }
 
-fn with_unit(value: Option<f64>, unit: &str) -> String {
+pub(crate) fn with_unit(value: Option<f64>, unit: &str) -> String {
     match value {
         None => "none".into(),
         Some(value) if unit.is_empty() || unit == "1" => number(value),
@@ -129,7 +168,7 @@ fn mark(passed: Option<bool>) -> &'static str {
     }
 }
 
-fn table(header: Vec<String>) -> Table {
+pub(crate) fn table(header: Vec<String>) -> Table {
     let mut table = Table::new();
     table.load_preset(presets::ASCII_MARKDOWN).set_header(header);
     // a terminal that is narrower than this, or does not know its width, breaks lines better than words
@@ -139,7 +178,7 @@ fn table(header: Vec<String>) -> Table {
     table
 }
 
-fn align_right(table: &mut Table, columns: impl IntoIterator<Item = usize>) {
+pub(crate) fn align_right(table: &mut Table, columns: impl IntoIterator<Item = usize>) {
     for column in columns {
         if let Some(column) = table.column_mut(column) {
             column.set_cell_alignment(CellAlignment::Right);

@@ -3,12 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::outcome::{Limit, Measure, Outcome};
+use crate::statistics::wilson;
 
 /// Version of the layout of `trials.json`.
 pub const TRIALS_SCHEMA: &str = "wield.trials/1";
-
-/// Normal quantile of a two-sided 95 % interval.
-const QUANTILE_95: f64 = 1.959_963_984_540_054;
 
 /// Result of several trials, as written to `trials.json`. Holds no clock time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -155,24 +153,6 @@ impl TrialsReport {
     }
 }
 
-/// Wilson's 95 % interval of a share of `successes` in `count` (Wilson 1927); the whole range if `count` is zero.
-#[must_use]
-pub fn wilson(successes: usize, count: usize) -> [f64; 2] {
-    if count == 0 {
-        return [0.0, 1.0];
-    }
-    let n = count as f64;
-    let share = successes as f64 / n;
-    let z2 = QUANTILE_95 * QUANTILE_95;
-    let center = share + z2 / (2.0 * n);
-    let half = QUANTILE_95 * (share * (1.0 - share) / n + z2 / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + z2 / n;
-    // a share of exactly 0 or 1 leaves its bound at 0 or 1 but for rounding
-    let low = if successes == 0 { 0.0 } else { (center - half) / scale };
-    let high = if successes == count { 1.0 } else { (center + half) / scale };
-    [low, high]
-}
-
 fn summaries(trials: &[Trial]) -> Vec<Summary> {
     let mut known: Vec<&Measure> = Vec::new();
     for measure in trials.iter().flat_map(|trial| &trial.measures) {
@@ -204,22 +184,6 @@ fn summary(measure: &Measure, trials: &[Trial]) -> Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Printed values have four digits.
-    const PRINTED: f64 = 5e-5;
-
-    #[test]
-    fn wilson_agrees_with_published_values() {
-        // Newcombe 1998, Table I: 81 of 263, 15 of 148, 0 of 20, 1 of 29
-        let expect =
-            [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)];
-        for (successes, count, low, high) in expect {
-            let found = wilson(successes, count);
-            assert!((found[0] - low).abs() < PRINTED && (found[1] - high).abs() < PRINTED, "{found:?}");
-        }
-        assert_eq!(wilson(4, 4)[1], 1.0);
-        assert_eq!(wilson(0, 0), [0.0, 1.0]);
-    }
 
     #[test]
     fn the_worst_lies_on_the_bad_side() {

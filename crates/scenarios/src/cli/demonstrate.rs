@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::progress::RunProgress;
-use super::{Exit, keep_json, load_told, panics, prepare_told, say, say_aside, say_error, say_json, seed_folder};
+use super::{Exit, SetArguments, keep_json, panics, prepare_told, say, say_aside, say_error, say_json, seed_folder};
 use crate::files::{remove_empty, remove_if_present, write_whole};
 use crate::pipeline::{RunError, demonstrate};
 use crate::report::demonstrations_text;
@@ -19,17 +19,26 @@ Files, in DIR (by default runs/<scenario>/seed-<n>/demonstrations in the current
   demonstrations.json     all trials: success or reason of failure, distance to the goal, duration, and the true
                           moments of contact, which no recorder sees
 
-Columns of the CSV, all in the frame of the world:
+Columns of the CSV of a push, all in the frame of the world:
   time_s, tool_x_m, tool_y_m, tool_angle_rad, object_x_m, object_y_m, object_angle_rad
 Tool and object are recorded on clocks of their own: a row leaves the fields of the other one empty.
 
+Columns of the CSV of a cut or a pour, the pose of knife or cup in the world:
+  time_s, x_m, y_m, z_m, qw, qx, qy, qz
+A knife's frame lies in the middle of its edge, level with the heel, x toward the tip, y in the direction of the cut; a
+cup's in the middle of its underside, z along its axis, x toward the lip.
+
 To learn from such files, copy them to the folder `demonstrations` of the assets and name them in a scenario:
-  [demonstrations.recorded]
+  [demonstrations.recorded]                    # a push
   assets = [\"push_stick_1\", \"push_stick_2\"]
+  [demonstrations.recorded]                    # a cut; scenarios/cut_recorded.toml says what else, and pour_recorded.toml
+  asset = \"cut_banana_three_1\"
 
 Examples:
   wield demonstrate scenarios/push_stick.toml
   wield demonstrate scenarios/push_stick.toml --count 20 --seed 7 --out shown
+  wield demonstrate scenarios/cut_banana_three.toml --out shown
+  wield demonstrate scenarios/push_stick.toml --set object.table_friction=0.4
   wield demonstrate scenarios/push_stick.toml --json | jq '.trials[].goal_error_mm'
 
 Exit codes: 0 success, 1 too few trials succeeded, 2 bad input (nothing written), 3 crashed or diverged.";
@@ -42,6 +51,8 @@ const SUMMARY: &str = "demonstrations.json";
 pub struct DemonstrateArguments {
     /// Scenario file
     file: PathBuf,
+    #[command(flatten)]
+    set: SetArguments,
     /// Number of trials that must succeed [default: the scenario's]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MOST_DEMONSTRATIONS as u64))]
     count: Option<u64>,
@@ -61,7 +72,7 @@ pub struct DemonstrateArguments {
 
 /// Loads the scenario, makes sure that files can be written, lets the human show the task, reports.
 pub fn execute(arguments: &DemonstrateArguments, assets: Option<&Path>) -> Exit {
-    let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
+    let Some(scenario) = arguments.set.load_told(&arguments.file, assets) else { return Exit::BadInput };
     let seed = arguments.seed.unwrap_or(scenario.header().seed);
     let usual = || seed_folder(&Path::new("runs").join(&scenario.name), seed).join("demonstrations");
     let out = arguments.out.clone().unwrap_or_else(usual);

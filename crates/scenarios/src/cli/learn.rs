@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::progress::RunProgress;
-use super::{Exit, load_told, panics, say, say_aside, say_error, unwritable};
+use super::{Exit, SetArguments, panics, say, say_aside, say_error, unwritable};
 use crate::files::{probe, write_whole};
 use crate::pipeline::{RunError, learn};
-use crate::scenario::{LARGEST_SEED, ResolvedScenario, SkillsFile, notes};
+use crate::scenario::{KeptSkills, LARGEST_SEED, ResolvedScenario, notes};
 
 pub const AFTER_HELP: &str = "\
 The file is text: where the skills come from, and every number that defines them, to the last bit. What is loaded moves
@@ -19,6 +19,8 @@ To use the skills, put the file into the folder `skills` of the assets and name 
 Examples:
   wield learn scenarios/push_stick.toml --out assets/skills/push_stick.toml
   wield learn scenarios/push_stick.toml --seed 7 --out seven.toml
+  wield learn scenarios/cut_banana_three.toml --out assets/skills/cut_own.toml
+  wield learn scenarios/push_stick.toml --set demonstrations.synthetic.count=10
 
 Exit codes: 0 success, 1 nothing could be learned, 2 bad input (nothing written), 3 crashed or diverged.";
 
@@ -27,6 +29,8 @@ Exit codes: 0 success, 1 nothing could be learned, 2 bad input (nothing written)
 pub struct LearnArguments {
     /// Scenario file
     file: PathBuf,
+    #[command(flatten)]
+    set: SetArguments,
     /// Seed of the human and the recorders [default: the scenario's]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
     seed: Option<u64>,
@@ -40,7 +44,7 @@ pub struct LearnArguments {
 
 /// Loads the scenario, makes sure that the file can be written, learns, writes, reports.
 pub fn execute(arguments: &LearnArguments, assets: Option<&Path>) -> Exit {
-    let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
+    let Some(scenario) = arguments.set.load_told(&arguments.file, assets) else { return Exit::BadInput };
     let seed = arguments.seed.unwrap_or(scenario.header().seed);
     let out = arguments.out.clone().unwrap_or_else(|| format!("{}.skills.toml", scenario.name).into());
     if let Err(error) = probe(&out) {
@@ -71,7 +75,7 @@ fn learned(
     arguments: &LearnArguments,
     scenario: &ResolvedScenario,
     seed: u64,
-) -> Result<Result<SkillsFile, String>, RunError> {
+) -> Result<Result<KeptSkills, String>, RunError> {
     let progress = RunProgress::new(arguments.quiet);
     let result = panics::catch(|| learn(scenario, seed, &|stage, share| progress.show(stage, share)));
     progress.finish();
@@ -79,25 +83,13 @@ fn learned(
 }
 
 /// Writes the skills and says what they are.
-fn keep(arguments: &LearnArguments, skills: &SkillsFile, out: &Path) -> Exit {
-    let written = skills.text().and_then(|text| write_whole(out, text.as_bytes()).map_err(|error| error.to_string()));
-    if let Err(reason) = written {
-        say_error(&format!("write {}: {reason}", out.display()));
+fn keep(arguments: &LearnArguments, skills: &KeptSkills, out: &Path) -> Exit {
+    if let Err(error) = write_whole(out, skills.text.as_bytes()) {
+        say_error(&format!("write {}: {error}", out.display()));
         return Exit::Crashed;
     }
     if arguments.quiet {
         return Exit::Success;
     }
-    let pushes = skills.skills.pushes.iter().map(|push| {
-        let [x, y] = push.displacement_m.map(|length| 1e3 * length);
-        format!("  push with `{}`: ({x:.0}, {y:.0}) mm in {:.1} s\n", push.surface, push.duration_s)
-    });
-    let origin = &skills.learned;
-    let shown = origin.demonstrations.len();
-    say(&format!(
-        "learned with the tool `{}` from {shown} demonstrations:\n{}skills: {}\n",
-        origin.tool,
-        pushes.collect::<String>(),
-        out.display()
-    ))
+    say(&format!("{}skills: {}\n", skills.told, out.display()))
 }

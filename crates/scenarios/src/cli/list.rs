@@ -9,7 +9,9 @@ use sim::cutting::knife::KnifeFile;
 use super::{Exit, assets_for, say, say_error};
 use crate::assets::{AssetKind, Assets, stems};
 use crate::scenario::{asset_description, demonstration_description, skills_description, stated_description, title};
+use crate::sweep::sweep_title;
 use crate::tasks::TASKS;
+use crate::tool_design::design_title;
 
 /// Options of `wield list`.
 #[derive(Debug, clap::Args)]
@@ -24,6 +26,10 @@ pub struct ListArguments {
 enum Listed {
     /// Scenario files beside the folder of assets
     Scenarios,
+    /// Sweep files, in the folder `sweeps` of the scenarios
+    Sweeps,
+    /// Design files, in the folder `designs` of the scenarios
+    Designs,
     /// Tool shapes
     Tools,
     /// Arms
@@ -45,7 +51,7 @@ enum Listed {
 impl Listed {
     /// Whether a list of everything leaves it out if there is none.
     fn is_rare(self) -> bool {
-        matches!(self, Self::Foods | Self::Knives | Self::Containers)
+        matches!(self, Self::Sweeps | Self::Designs | Self::Foods | Self::Knives | Self::Containers)
     }
 }
 
@@ -92,7 +98,11 @@ fn entries(kind: Listed, assets: &Assets) -> Vec<(String, String)> {
             .collect()
     };
     match kind {
-        Listed::Scenarios => scenarios(assets),
+        Listed::Scenarios => beside(assets, "scenarios", |file| title(file).unwrap_or_else(|| BROKEN.into())),
+        Listed::Sweeps => beside(assets, "scenarios/sweeps", |file| sweep_title(file).unwrap_or_else(|| BROKEN.into())),
+        Listed::Designs => {
+            beside(assets, "scenarios/designs", |file| design_title(file).unwrap_or_else(|| BROKEN.into()))
+        }
         Listed::Tools => describe(AssetKind::Tool, tool),
         Listed::Robots => describe(AssetKind::Robot, robot),
         Listed::Tasks => TASKS.iter().map(|task| (task.name.to_owned(), task.summary.to_owned())).collect(),
@@ -104,10 +114,13 @@ fn entries(kind: Listed, assets: &Assets) -> Vec<(String, String)> {
     }
 }
 
-fn scenarios(assets: &Assets) -> Vec<(String, String)> {
-    let folder = assets.root().parent().map_or_else(|| PathBuf::from("scenarios"), |project| project.join("scenarios"));
+/// What is said about a file that cannot be read.
+const BROKEN: &str = "(broken: `wield check` tells why)";
+
+/// Path and description of each TOML file of a folder beside that of the assets.
+fn beside(assets: &Assets, folder: &str, describe: impl Fn(&Path) -> String) -> Vec<(String, String)> {
+    let folder = assets.root().parent().map_or_else(|| PathBuf::from(folder), |project| project.join(folder));
     let files = stems(&folder, "toml").into_iter().map(|stem| folder.join(format!("{stem}.toml")));
-    let describe = |file: &Path| title(file).unwrap_or_else(|| "(broken: `wield check` tells why)".into());
     files.map(|file| (file.display().to_string(), describe(&file))).collect()
 }
 

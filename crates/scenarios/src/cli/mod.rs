@@ -1,16 +1,31 @@
 //! The command line: verbs, their options, exit codes.
 
+mod campaign;
 mod check;
+mod compare;
+mod comparing;
+mod completions;
 mod demonstrate;
+mod design;
+mod explain;
 mod gains;
+mod interrupt;
 mod learn;
 mod list;
+mod man;
+mod new;
 mod observe;
 mod panics;
+mod plan;
 mod progress;
 mod reproduce;
+mod row;
 mod run;
+mod schema;
 mod seed_run;
+mod shard;
+mod sweep;
+mod view;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -23,7 +38,8 @@ use crate::assets::Assets;
 use crate::diagnostic::{Diagnostic, color_wanted};
 use crate::files::{prepare_folder, write_whole};
 use crate::report::json;
-use crate::scenario::{ResolvedScenario, load};
+use crate::scenario::{Change, ResolvedScenario, Source, load_text};
+use crate::sweep::is_sweep;
 
 /// How the program ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +52,8 @@ pub enum Exit {
     BadInput,
     /// A run crashed or diverged, or its result could not be written.
     Crashed,
+    /// Ctrl-C ended it before everything was done; what was done is kept.
+    Interrupted,
 }
 
 impl Exit {
@@ -52,6 +70,7 @@ impl From<Exit> for ExitCode {
             Exit::Missed => 1,
             Exit::BadInput => 2,
             Exit::Crashed => 3,
+            Exit::Interrupted => interrupt::CODE,
         })
     }
 }
@@ -59,9 +78,14 @@ impl From<Exit> for ExitCode {
 const AFTER_HELP: &str = "\
 Examples:
   wield list                                       what there is: scenarios, tools, robots, tasks
+  wield new push                                   write a scenario to begin with, push.toml
+  wield explain task.push.transfer                 what a key means, its unit and default
   wield check scenarios/*.toml                     find every mistake, run nothing
   wield run scenarios/push_stick.toml              run it; results go to runs/push_stick/seed-1/
   wield run scenarios/push_stick.toml --trials 20  seeds 1 to 20 in parallel, with the success rate
+  wield compare scenarios/push_compare.toml --tool stick --tool l    which tool is better, and how surely
+  wield run scenarios/push_stick.toml --set object.mass_kg=0.01   with another value of one key
+  wield sweep scenarios/sweeps/push_friction.toml  many runs over several values, on all cores; goes on where it stopped
   wield demonstrate scenarios/push_stick.toml      only what the synthetic human shows, as CSV files
   wield reproduce                                  every figure, table and claim of the paper, with a verdict
   wield gains                                      how closely the Panda follows under several gains
@@ -71,6 +95,7 @@ Exit codes:
   1  a task missed its limits, or too few trials succeeded
   2  bad input: nothing was run, nothing was written
   3  a run crashed or diverged
+  130  Ctrl-C: what was done is kept
 
 Tools, robots, demonstrations and skills are found by name in a folder of assets: --assets DIR, else the environment
 variable WIELD_ASSETS, else the folder `assets` nearest above the scenario, else nearest above the current folder.";
@@ -95,6 +120,18 @@ enum Verb {
     /// Run a scenario, once or under several seeds
     #[command(after_long_help = run::AFTER_HELP)]
     Run(run::RunArguments),
+    /// Compare tools or other values: which is better, by how much, how surely
+    #[command(after_long_help = compare::AFTER_HELP)]
+    Compare(compare::CompareArguments),
+    /// Choose parameters of a tool for a scenario, and compare the best tool with the start
+    #[command(after_long_help = design::AFTER_HELP)]
+    Design(design::DesignArguments),
+    /// Plan many runs: list them in a folder from which they can be made
+    #[command(after_long_help = plan::AFTER_HELP)]
+    Plan(plan::PlanArguments),
+    /// Make many runs on all cores: those of a sweep file, or those left in a folder
+    #[command(after_long_help = sweep::AFTER_HELP)]
+    Sweep(sweep::SweepArguments),
     /// Let a scenario's synthetic human show the task, and keep the demonstrations as CSV files
     #[command(after_long_help = demonstrate::AFTER_HELP)]
     Demonstrate(demonstrate::DemonstrateArguments),
@@ -107,10 +144,38 @@ enum Verb {
     /// Measure how closely the Panda carries its hand under several gains and wrong models
     #[command(after_long_help = gains::AFTER_HELP)]
     Gains(gains::GainsArguments),
-    /// Check scenario files without running them
+    /// Tell how far a campaign of runs is
+    #[command(after_long_help = campaign::STATUS_HELP)]
+    Status(campaign::StatusArguments),
+    /// Make the tables of a campaign from what its processes wrote down
+    #[command(after_long_help = campaign::MERGE_HELP)]
+    Merge(campaign::MergeArguments),
+    /// Hand the runs of a campaign to Slurm, HyperQueue or GNU parallel
+    #[command(after_long_help = campaign::SUBMIT_HELP)]
+    Submit(campaign::SubmitArguments),
+    /// Open recordings in the viewer
+    #[command(after_long_help = view::AFTER_HELP)]
+    View(view::ViewArguments),
+    /// Check scenario and sweep files without running them
+    #[command(after_long_help = check::AFTER_HELP)]
     Check(check::CheckArguments),
     /// List scenarios, tools, robots, tasks, demonstrations and skills
     List(list::ListArguments),
+    /// Write a scenario or a tool to begin with
+    #[command(after_long_help = new::AFTER_HELP)]
+    New(new::NewArguments),
+    /// Say what a key of a scenario or an asset means: type, unit, default, where it is shown
+    #[command(after_long_help = explain::AFTER_HELP)]
+    Explain(explain::ExplainArguments),
+    /// Print the JSON Schema of scenarios and assets, for editors
+    #[command(after_long_help = schema::AFTER_HELP)]
+    Schema(schema::SchemaArguments),
+    /// Print a script that lets a shell complete verbs and options
+    #[command(after_long_help = completions::AFTER_HELP)]
+    Completions(completions::CompletionsArguments),
+    /// Print the manual
+    #[command(after_long_help = man::AFTER_HELP)]
+    Man(man::ManArguments),
 }
 
 /// Reads the command line, does what it says, and returns how it ended.
@@ -128,12 +193,25 @@ pub fn main() -> Exit {
     }
     match arguments.verb {
         Verb::Run(run) => run::execute(&run, assets, crate::pipeline::run),
+        Verb::Compare(compare) => compare::execute(&compare, assets),
+        Verb::Design(design) => design::execute(&design, assets),
+        Verb::Plan(plan) => plan::execute(&plan, assets),
+        Verb::Sweep(sweep) => sweep::execute(&sweep, assets, crate::pipeline::run),
         Verb::Demonstrate(demonstrate) => demonstrate::execute(&demonstrate, assets),
         Verb::Learn(learn) => learn::execute(&learn, assets),
         Verb::Reproduce(reproduce) => reproduce::execute(&reproduce, assets),
         Verb::Gains(gains) => gains::execute(&gains, assets),
+        Verb::Status(status) => campaign::status(&status),
+        Verb::Merge(merge) => campaign::merge(&merge),
+        Verb::Submit(submit) => campaign::submit(&submit),
+        Verb::View(view) => view::execute(&view),
         Verb::Check(check) => check::execute(&check, assets),
         Verb::List(list) => list::execute(&list, assets),
+        Verb::New(new) => new::execute(&new, assets),
+        Verb::Explain(explain) => explain::execute(&explain, assets),
+        Verb::Schema(schema) => schema::execute(&schema),
+        Verb::Completions(completions) => completions::execute(&completions),
+        Verb::Man(man) => man::execute(&man),
     }
 }
 
@@ -148,9 +226,35 @@ fn assets_for(explicit: Option<&Path>, scenario: Option<&Path>) -> Assets {
     Assets::find(explicit, scenario)
 }
 
-/// Loads a scenario; says what is wrong with it if that fails.
+/// Values of keys that differ from what the scenario file says.
+#[derive(Debug, Default, clap::Args)]
+struct SetArguments {
+    /// Gives a key another value: object.mass_kg=0.01, task.push.goal_m=[0, 0.1], tool.asset=l; after a colon a key of the
+    /// file that the value names: tool.asset:friction=0.5. Can be given several times
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    changes: Vec<Change>,
+}
+
+impl SetArguments {
+    /// Loads a scenario with these changes.
+    fn load(&self, file: &Path, assets: Option<&Path>) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+        if is_sweep(file) {
+            let problem = Diagnostic::of_file(file, "this is a sweep, not a scenario").expected("a scenario file");
+            return Err(vec![problem.help([format!("its runs are made by `wield sweep {}`", file.display())])]);
+        }
+        let source = Source::read(file).map_err(|problem| vec![*problem])?;
+        load_text(file, &source.text, &self.changes, &assets_for(assets, Some(file)))
+    }
+
+    /// Loads a scenario with these changes; says what is wrong with it if that fails.
+    fn load_told(&self, file: &Path, assets: Option<&Path>) -> Option<ResolvedScenario> {
+        self.load(file, assets).map_err(|problems| say_problems(&problems)).ok()
+    }
+}
+
+/// Loads a scenario as it is; says what is wrong with it if that fails.
 fn load_told(file: &Path, assets: Option<&Path>) -> Option<ResolvedScenario> {
-    load(file, &assets_for(assets, Some(file))).map_err(|problems| say_problems(&problems)).ok()
+    SetArguments::default().load_told(file, assets)
 }
 
 /// Makes a folder for results and returns the folders made on the way; says so if nothing can be written there.

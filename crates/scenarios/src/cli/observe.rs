@@ -1,6 +1,6 @@
 //! The seam to the recorder: with the feature `recording` a run is recorded, without it asking for that is refused.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::pipeline::{Onlooker, Report, RunError};
 use crate::scenario::ResolvedScenario;
@@ -86,4 +86,34 @@ pub fn watch(
     run: impl FnOnce(&mut dyn Onlooker) -> Result<Report, RunError>,
 ) -> Result<Watched, String> {
     Ok(Watched { result: run(&mut ()), warnings: Vec::new(), serving: None })
+}
+
+/// A run that is to be recorded beside others.
+pub struct RunToRecord {
+    /// What it is called.
+    pub name: String,
+    /// Its scenario.
+    pub scenario: ResolvedScenario,
+}
+
+/// Makes runs one after the other with the same seed, and records them side by side.
+///
+/// Returns what the recorder had to say. The error says why it could not start.
+#[cfg(feature = "recording")]
+pub fn record_side_by_side(file: &Path, name: &str, seed: u64, runs: &[RunToRecord]) -> Result<Vec<String>, String> {
+    let mut together = crate::recording::SideBySide::start(file, name, seed).map_err(|error| error.to_string())?;
+    for run in runs {
+        let mut recorder = together.recorder(&run.name, &run.scenario).map_err(|error| error.to_string())?;
+        let made = super::panics::catch(|| crate::pipeline::run(&run.scenario, seed, &mut recorder, &|_, _| {}));
+        let reason = |error: RunError| error.to_string();
+        let result = made.and_then(|result| result.map_err(reason)).map(|report| report.outcome);
+        together.ended(&run.name, recorder, result.as_ref().map_err(String::as_str));
+    }
+    Ok(together.finish().warnings)
+}
+
+/// Records nothing.
+#[cfg(not(feature = "recording"))]
+pub fn record_side_by_side(_: &Path, _: &str, _: u64, _: &[RunToRecord]) -> Result<Vec<String>, String> {
+    Err("this wield was built without its recorder".into())
 }

@@ -2,18 +2,20 @@
 
 use std::cell::{Cell, RefCell};
 use std::io::{IsTerminal, stderr};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::say_aside;
+use crate::trials::Status;
 
 /// Nothing is shown before this.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Time between two lines where there is no terminal.
-const LINE_INTERVAL: Duration = Duration::from_secs(10);
+pub const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// Progress of one run.
 pub struct RunProgress {
@@ -95,9 +97,110 @@ impl TrialsProgress {
     }
 }
 
+/// Progress of a campaign, told by many threads.
+pub struct SweepProgress {
+    quiet: bool,
+    total: usize,
+    started: Instant,
+    on_terminal: bool,
+    bar: ProgressBar,
+    told: Mutex<Told>,
+}
+
+/// What was counted, and what of it was shown.
+struct Told {
+    before: usize,
+    made: usize,
+    failed: usize,
+    last_line: Instant,
+    tenths: usize,
+}
+
+impl SweepProgress {
+    /// Progress of `total` runs, of which `before` were done before; shows nothing if `quiet`.
+    pub fn new(total: usize, before: usize, quiet: bool) -> Self {
+        let on_terminal = stderr().is_terminal();
+        let bar = if on_terminal && !quiet { wide(ProgressBar::new(total as u64)) } else { ProgressBar::hidden() };
+        let now = Instant::now();
+        if before > 0 && before < total && !quiet {
+            say_aside(&format!("{before} of {total} runs are done: going on with the others"));
+        }
+        let told = Told { before, made: 0, failed: 0, last_line: now, tenths: 10 * before / total.max(1) };
+        Self { quiet, total, started: now, on_terminal, bar, told: Mutex::new(told) }
+    }
+
+    /// One more run has ended.
+    pub fn one_done(&self, status: Status) {
+        let mut told = self.told.lock().unwrap_or_else(|broken| broken.into_inner());
+        told.made += 1;
+        told.failed += usize::from(status != Status::Success);
+        if self.quiet || self.started.elapsed() < PATIENCE {
+            return;
+        }
+        let done = told.before + told.made;
+        let line = progress_line(done, self.total, told.made, told.failed, self.started.elapsed().as_secs_f64());
+        if self.on_terminal {
+            self.bar.set_message(line);
+            self.bar.set_position(done as u64);
+            return;
+        }
+        let tenths = 10 * done / self.total.max(1);
+        if tenths > told.tenths || told.last_line.elapsed() >= LINE_INTERVAL {
+            (told.tenths, told.last_line) = (tenths, Instant::now());
+            say_aside(&line);
+        }
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// "12 of 30 runs (40 %), 2.1 a second, 1 without success, 9 s left".
+fn progress_line(done: usize, total: usize, made: usize, failed: usize, elapsed_s: f64) -> String {
+    let percent = 100 * done / total.max(1);
+    let rate = made as f64 / elapsed_s.max(1e-3);
+    let left = duration(total.saturating_sub(done) as f64 / rate.max(1e-9));
+    format!("{done} of {total} runs ({percent} %), {rate:.2} a second, {failed} without success, {left} left")
+}
+
+/// "40 s", "3 min", "2.5 h".
+fn duration(seconds: f64) -> String {
+    match seconds {
+        0.0..120.0 => format!("{seconds:.0} s"),
+        120.0..7200.0 => format!("{:.0} min", seconds / 60.0),
+        _ => format!("{:.1} h", seconds / 3600.0),
+    }
+}
+
+fn wide(bar: ProgressBar) -> ProgressBar {
+    match ProgressStyle::with_template("[{bar:30}] {msg}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}
+
 fn styled(bar: ProgressBar) -> ProgressBar {
     match ProgressStyle::with_template("{msg:12} [{bar:40}] {pos:>3}/{len} {elapsed}") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_counts_only_what_is_made_now() {
+        // 10 of 30 done before, 2 in 4 seconds: 18 left take 36 s
+        let line = progress_line(12, 30, 2, 1, 4.0);
+        assert_eq!(line, "12 of 30 runs (40 %), 0.50 a second, 1 without success, 36 s left");
+    }
+
+    #[test]
+    fn durations_are_written_as_people_say_them() {
+        assert_eq!([5.4, 300.0, 9000.0].map(duration), ["5 s", "5 min", "2.5 h"]);
     }
 }

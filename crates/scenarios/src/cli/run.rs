@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use super::observe::{self, Destination, Serving};
 use super::progress::{RunProgress, TrialsProgress};
-use super::seed_run::{Failure, Pipeline, RECORDING, run_seed};
-use super::{Exit, keep_json, load_told, say, say_aside, say_error, say_json, seed_folder, unwritable};
+use super::seed_run::{Failure, Finished, Pipeline, RECORDING, run_seed};
+use super::{Exit, SetArguments, keep_json, row, say, say_aside, say_error, say_json, seed_folder, unwritable};
 use crate::files::{prepare_folder, probe, remove_empty};
 use crate::report::{run_text, trials_text};
 use crate::scenario::{LARGEST_SEED, ResolvedScenario, notes};
@@ -25,14 +25,23 @@ Examples:
   wield run scenarios/push_stick.toml --seed 7 --out results/push
   wield run scenarios/push_stick.toml --trials 50 --min-success 0.9
   wield run scenarios/push_stick.toml --json --no-record | jq .measures
+  wield run scenarios/push_stick.toml --set object.table_friction=0.4 --set tool.asset:mass_kg=0.02
 
-Exit codes: 0 success, 1 limits missed, 2 bad input (nothing written), 3 crashed or diverged.";
+A single run of a sweep, with its recording, in runs/push_friction/row-7/:
+  wield run runs/push_friction --row 7
+
+Exit codes: 0 success, 1 limits missed, 2 bad input (nothing written), 3 crashed or diverged, or not the same as before.";
 
 /// Options of `wield run`.
 #[derive(Debug, clap::Args)]
 pub struct RunArguments {
-    /// Scenario file
-    file: PathBuf,
+    /// Scenario file; with --row the folder of a campaign
+    pub file: PathBuf,
+    #[command(flatten)]
+    set: SetArguments,
+    /// Run this row of the campaign in the folder again, and compare the result with what the row says
+    #[arg(long, value_name = "N", conflicts_with_all = ["changes", "seed", "trials", "min_success", "threads", "record_all"])]
+    row: Option<u64>,
     /// Seed of the run, or of the first trial [default: the scenario's]
     #[arg(long, value_name = "N", visible_alias = "first-seed", value_parser = clap::value_parser!(u64).range(..=LARGEST_SEED))]
     seed: Option<u64>,
@@ -47,7 +56,7 @@ pub struct RunArguments {
     threads: Option<u16>,
     /// Folder for results [default: runs/<scenario>]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub out: Option<PathBuf>,
     /// Do not record
     #[arg(long, conflicts_with_all = ["record", "record_all", "connect", "serve", "view"])]
     no_record: bool,
@@ -71,12 +80,60 @@ pub struct RunArguments {
     json: bool,
     /// Print nothing but errors
     #[arg(long, short, conflicts_with = "json")]
-    quiet: bool,
+    pub quiet: bool,
+}
+
+impl RunArguments {
+    /// Where a run is recorded whose files go to `folder`.
+    pub fn destination(&self, folder: &Path) -> Destination {
+        let Self { no_record, record, record_all, connect, serve, view, trials, .. } = self;
+        if *no_record || !observe::AVAILABLE || (*trials > 1 && !record_all) {
+            return Destination::default();
+        }
+        let file = record.clone().unwrap_or_else(|| folder.join(RECORDING));
+        Destination { file: Some(file), connect: connect.clone(), serve: *serve, view: *view }
+    }
+
+    /// Makes sure that what is asked for can be recorded.
+    pub fn check_recording(&self) -> Result<(), String> {
+        check_recording(self)?;
+        self.record.as_ref().map_or(Ok(()), |file| probe(file).map_err(|error| unwritable(file, &error, "--record")))
+    }
+
+    /// Makes one run and tells about it, on stdout and in `folder`.
+    pub fn run_told(
+        &self,
+        pipeline: Pipeline,
+        scenario: &ResolvedScenario,
+        seed: u64,
+        folder: &Path,
+    ) -> Result<(Exit, Finished), Failure> {
+        let destination = self.destination(folder);
+        let progress = RunProgress::new(self.quiet);
+        let show = |stage, share| progress.show(stage, share);
+        let result = run_seed(pipeline, scenario, seed, folder, &destination, &show);
+        progress.finish();
+        let finished = result?;
+        finished.warnings.iter().for_each(|warning| say_aside(&format!("warning: {warning}")));
+        let written = if self.json {
+            say_json(&finished.report.outcome)
+        } else if self.quiet {
+            Exit::Success
+        } else {
+            let recording =
+                destination.file.map_or_else(String::new, |file| format!("recording: {}\n", file.display()));
+            say(&format!("{}results: {}\n{recording}", run_text(&finished.report), folder.display()))
+        };
+        Ok((written, finished))
+    }
 }
 
 /// Loads the scenario, makes sure that results can be written, runs, reports.
 pub fn execute(arguments: &RunArguments, assets: Option<&Path>, pipeline: Pipeline) -> Exit {
-    let Some(scenario) = load_told(&arguments.file, assets) else { return Exit::BadInput };
+    if let Some(index) = arguments.row {
+        return row::execute(arguments, index, assets, pipeline);
+    }
+    let Some(scenario) = arguments.set.load_told(&arguments.file, assets) else { return Exit::BadInput };
     let job = match Job::new(arguments, &scenario, pipeline) {
         Ok(job) => job,
         Err(reason) => {
@@ -103,7 +160,7 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(arguments: &'a RunArguments, scenario: &'a ResolvedScenario, pipeline: Pipeline) -> Result<Self, String> {
-        check_recording(arguments)?;
+        arguments.check_recording()?;
         let first_seed = arguments.seed.unwrap_or(scenario.header().seed);
         if first_seed > LARGEST_SEED - u64::from(arguments.trials - 1) {
             return Err(format!(
@@ -112,43 +169,15 @@ impl<'a> Job<'a> {
             ));
         }
         let out = arguments.out.clone().unwrap_or_else(|| Path::new("runs").join(&scenario.name));
-        if let Some(file) = &arguments.record {
-            probe(file).map_err(|error| unwritable(file, &error, "--record"))?;
-        }
         let created = prepare_folder(&out).map_err(|error| unwritable(&out, &error, "--out"))?;
         Ok(Self { arguments, scenario, pipeline, out, created, first_seed })
     }
 
-    /// Where the run with `seed` is recorded.
-    fn destination(&self, seed: u64) -> Destination {
-        let RunArguments { no_record, record, record_all, connect, serve, view, trials, .. } = self.arguments;
-        if *no_record || !observe::AVAILABLE || (*trials > 1 && !record_all) {
-            return Destination::default();
-        }
-        let file = record.clone().unwrap_or_else(|| seed_folder(&self.out, seed).join(RECORDING));
-        Destination { file: Some(file), connect: connect.clone(), serve: *serve, view: *view }
-    }
-
     fn run_once(&self) -> Exit {
         let (seed, folder) = (self.first_seed, seed_folder(&self.out, self.first_seed));
-        let destination = self.destination(seed);
-        let progress = RunProgress::new(self.arguments.quiet);
-        let show = |stage, share| progress.show(stage, share);
-        let result = run_seed(self.pipeline, self.scenario, seed, &folder, &destination, &show);
-        progress.finish();
-        let finished = match result {
+        let (written, finished) = match self.arguments.run_told(self.pipeline, self.scenario, seed, &folder) {
             Ok(finished) => finished,
             Err(failure) => return self.fail(seed, &failure),
-        };
-        finished.warnings.iter().for_each(|warning| say_aside(&format!("warning: {warning}")));
-        let written = if self.arguments.json {
-            say_json(&finished.report.outcome)
-        } else if self.arguments.quiet {
-            Exit::Success
-        } else {
-            let recording =
-                destination.file.map_or_else(String::new, |file| format!("recording: {}\n", file.display()));
-            say(&format!("{}results: {}\n{recording}", run_text(&finished.report), folder.display()))
         };
         if let Some(serving) = &finished.serving {
             serve_until_enter(serving);
@@ -194,7 +223,8 @@ impl<'a> Job<'a> {
 
     fn trial(&self, seed: u64, progress: &TrialsProgress) -> (Trial, Vec<String>) {
         let folder = seed_folder(&self.out, seed);
-        let result = run_seed(self.pipeline, self.scenario, seed, &folder, &self.destination(seed), &|_, _| {});
+        let destination = self.arguments.destination(&folder);
+        let result = run_seed(self.pipeline, self.scenario, seed, &folder, &destination, &|_, _| {});
         progress.one_done();
         match result {
             Ok(finished) => (Trial::of_outcome(&finished.report.outcome), finished.warnings),
@@ -223,7 +253,7 @@ impl<'a> Job<'a> {
 }
 
 /// Keeps a server up for viewers until Enter is pressed or the input ends.
-fn serve_until_enter(serving: &Serving) {
+pub fn serve_until_enter(serving: &Serving) {
     let url = serving.url();
     say_aside(&format!("the recording is served at {url}: open it with `rerun {url}`; press Enter to end"));
     let mut line = String::new();
@@ -245,7 +275,8 @@ fn check_recording(arguments: &RunArguments) -> Result<(), String> {
     Ok(())
 }
 
-fn share(text: &str) -> Result<f64, String> {
+/// Reads a share.
+pub fn share(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(share) if (0.0..=1.0).contains(&share) => Ok(share),
         _ => Err("expected a number from 0 to 1".into()),

@@ -3,6 +3,7 @@
 use rerun::{RecordingStream, RecordingStreamResult};
 use sim::planar::SceneDescription;
 
+use super::curves::Curves;
 use super::moving::Moving;
 use super::plots::Plots;
 use super::row::Row;
@@ -31,6 +32,11 @@ impl Block {
     /// Sends names and colors of all series.
     pub(super) fn send_static(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         self.plots.send_static(stream)
+    }
+
+    /// The curves.
+    pub(super) fn curves(&self) -> &Curves {
+        self.plots.curves()
     }
 
     /// Number of rows that wait.

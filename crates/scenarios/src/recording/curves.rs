@@ -69,6 +69,11 @@ impl Curves {
         }
     }
 
+    /// Path and name of every curve.
+    pub(super) fn told(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.curves.iter().map(|curve| (curve.path.as_str(), curve.name.as_str()))
+    }
+
     /// Sends names and colors.
     pub(super) fn send_static(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         self.curves.iter().try_for_each(|curve| {

@@ -10,7 +10,7 @@ use crate::outcome::Outcome;
 const FAREWELL: Duration = Duration::from_millis(1500);
 
 /// Time that the disk gets to take what waits for it.
-const FLUSH: Duration = Duration::from_secs(60);
+pub(super) const FLUSH: Duration = Duration::from_secs(60);
 
 /// What became of a recording.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

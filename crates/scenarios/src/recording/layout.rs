@@ -17,6 +17,8 @@ use super::{APPLICATION, events, summary};
 pub(super) struct Layout {
     pub(super) stream: RecordingStream,
     nodes: u8,
+    /// Entity below which views look, `/stick` for example; empty for the root.
+    below: String,
 }
 
 /// A view or a container.
@@ -32,7 +34,7 @@ pub(super) fn send(
 ) -> RecordingStreamResult<()> {
     let (layout, storage) = RecordingStreamBuilder::new(APPLICATION).enabled(true).blueprint().memory()?;
     layout.set_time_sequence("blueprint", 0);
-    let mut layout = Layout { stream: layout, nodes: 0 };
+    let mut layout = Layout { stream: layout, nodes: 0, below: String::new() };
     let root = write(&mut layout)?;
     layout.finish(&root)?;
     let messages = storage.take();
@@ -46,6 +48,16 @@ pub(super) fn send(
 }
 
 impl Layout {
+    /// Lets the views that are added from now on look below an entity; the empty text stands for the root.
+    pub(super) fn look_below(&mut self, entity: &str) {
+        entity.clone_into(&mut self.below);
+    }
+
+    /// The path of an entity that is named as if it were the only run's.
+    pub(super) fn placed(&self, path: &str) -> String {
+        format!("{}/{}", self.below, path.trim_start_matches('/')).trim_end_matches('/').to_owned()
+    }
+
     fn finish(&self, root: &Node) -> RecordingStreamResult<()> {
         let viewport = blueprint::ViewportBlueprint::new()
             .with_root_container(RootContainer(root.id))
@@ -75,8 +87,18 @@ impl Layout {
         self.container(ContainerKind::Tabs, "texts", &[&outcome, &log, &task], &[])
     }
 
+    /// Curves of one run.
     pub(super) fn curves(&mut self, name: &str, contents: &[&str]) -> RecordingStreamResult<Node> {
-        let view = self.view("TimeSeries", name, "/plots", contents)?;
+        self.series("/plots", name, contents)
+    }
+
+    /// Curves of several runs.
+    pub(super) fn shared_curves(&mut self, name: &str, contents: &[&str]) -> RecordingStreamResult<Node> {
+        self.series("/", name, contents)
+    }
+
+    fn series(&mut self, origin: &str, name: &str, contents: &[&str]) -> RecordingStreamResult<Node> {
+        let view = self.view("TimeSeries", name, origin, contents)?;
         self.property(&view, "TimeAxis", &blueprint::TimeAxis::new().with_link(LinkAxis::LinkToGlobal))?;
         self.property(&view, "PlotLegend", &blueprint::PlotLegend::new().with_corner(Corner2D::RightTop))?;
         Ok(view)
@@ -102,9 +124,11 @@ impl Layout {
         contents: &[&str],
     ) -> RecordingStreamResult<Node> {
         let node = self.node("view");
+        let origin = if self.below.is_empty() { origin.to_owned() } else { self.placed(origin) };
         let view = blueprint::ViewBlueprint::new(class).with_display_name(name).with_space_origin(origin);
         self.stream.log(node.path.as_str(), &view)?;
-        self.property(&node, "ViewContents", &blueprint::ViewContents::new(contents.iter().copied()))?;
+        let below = |rule: &&str| rule.replacen("+ /", &format!("+ {}/", self.below), 1);
+        self.property(&node, "ViewContents", &blueprint::ViewContents::new(contents.iter().map(below)))?;
         Ok(node)
     }
 

@@ -19,6 +19,7 @@ mod plots;
 mod row;
 mod scene;
 mod shapes;
+mod side_by_side;
 mod sinks;
 mod space;
 mod store;
@@ -36,12 +37,16 @@ use sim::planar::{Event, Observer, Sample, SceneDescription};
 pub use error::RecordingError;
 pub use finish::RecordingSummary;
 pub use outlet::Served;
+pub use side_by_side::SideBySide;
 
 use self::block::Block;
+use self::curves::Curves;
 use self::events::Events;
 use self::file::PartialFile;
 use self::live::LiveHandle;
 use self::row::{Decimator, Row};
+use self::side_by_side::View;
+use self::sinks::Opened;
 use self::space::SpaceRun;
 use crate::scenario::ResolvedScenario;
 
@@ -77,6 +82,7 @@ pub struct Recorder {
     tolerance_m: f64,
     block_rows: usize,
     run: Option<Run>,
+    view: Option<View>,
     events: Events,
     warnings: Vec<String>,
 }
@@ -97,6 +103,13 @@ struct PlaneRun {
 }
 
 impl Run {
+    fn curves(&self) -> &Curves {
+        match self {
+            Self::Plane(run) => run.block.curves(),
+            Self::Space(run) => run.curves(),
+        }
+    }
+
     fn hand_over(&mut self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         match self {
             Self::Plane(run) => run.block.hand_over(stream),
@@ -125,8 +138,12 @@ impl Recorder {
     /// A [`RecordingError`] if the file cannot be written, the address is no viewer's address, the port is taken or no
     /// viewer is installed. A viewer that does not answer is no error.
     pub fn start(options: &RecorderOptions, scenario: &ResolvedScenario, seed: u64) -> Result<Self, RecordingError> {
-        let opened = sinks::open(options)?;
-        let stream = store::open(opened.sinks, &scenario.name, seed)?;
+        Self::over(sinks::open(options)?, &scenario.name, scenario, seed)
+    }
+
+    /// Records to what was opened; `name` with the seed is the recording's identity.
+    fn over(opened: Opened, name: &str, scenario: &ResolvedScenario, seed: u64) -> Result<Self, RecordingError> {
+        let stream = store::open(opened.sinks, name, seed)?;
         let mut recorder = Self {
             stream,
             file: opened.file,
@@ -136,6 +153,7 @@ impl Recorder {
             rate_hz: scenario.recording().rate_hz,
             tolerance_m: scenario.goal_tolerance_m().unwrap_or(0.0),
             run: None,
+            view: None,
             events: Events::default(),
             warnings: opened.warnings,
         };
@@ -181,6 +199,7 @@ impl Observer for Recorder {
         let drawn = scene::send(&self.stream, scene, self.tolerance_m);
         let named = run.block.send_static(&self.stream);
         let laid_out = layout::send(&self.stream, |layout| plane_layout::write(layout, scene));
+        self.view = Some(View::Plane(scene.world.map.clone()));
         self.run = Some(Run::Plane(Box::new(run)));
         self.note("draw the scene", drawn);
         self.note("name the series", named);

@@ -15,14 +15,15 @@ const MARGINS: [f64; 3] = [0.04, 0.08, 0.14];
 
 /// Writes the layout and returns its root.
 pub(super) fn write(layout: &mut Layout, scene: &SceneDescription) -> RecordingStreamResult<Node> {
-    let plane = plane(layout, &scene.world.map)?;
+    let plane = plane(layout, "scene from above (x right, y up, m)", &scene.world.map)?;
     let left = layout.container(ContainerKind::Vertical, "scene", &[&plane], &[])?;
     let right = right(layout)?;
     layout.container(ContainerKind::Horizontal, "run", &[&left, &right], &[1.15, 1.0])
 }
 
-fn plane(layout: &mut Layout, map: &MapBounds) -> RecordingStreamResult<Node> {
-    let view = layout.view("2D", "scene from above (x right, y up, m)", "/", &["+ /plane/**"])?;
+/// The view of the scene from above.
+pub(super) fn plane(layout: &mut Layout, name: &str, map: &MapBounds) -> RecordingStreamResult<Node> {
+    let view = layout.view("2D", name, "/", &["+ /plane/**"])?;
     layout.property(&view, "VisualBounds2D", &blueprint::VisualBounds2D::new(bounds(map)))?;
     let background = blueprint::Background::new(BackgroundKind::SolidColor).with_color(style::BACKGROUND);
     layout.property(&view, "Background", &background)?;
@@ -35,7 +36,8 @@ fn plane(layout: &mut Layout, map: &MapBounds) -> RecordingStreamResult<Node> {
 /// Lets a trail show all of its stretches up to the time cursor.
 pub(super) fn show_whole(layout: &Layout, view: &Node, trail: &str) -> RecordingStreamResult<()> {
     let ranges = blueprint::VisibleTimeRanges::new([STEP, SIM_TIME].map(until_cursor));
-    layout.stream.log(format!("{}/ViewContents/overrides/{trail}/visualizers", view.path), &ranges)
+    let trail = layout.placed(trail);
+    layout.stream.log(format!("{}/ViewContents/overrides{trail}/visualizers", view.path), &ranges)
 }
 
 fn right(layout: &mut Layout) -> RecordingStreamResult<Node> {

@@ -5,9 +5,9 @@ use skills::tool_flipping::FlipOptions;
 
 use super::flip_tasks::{FIGURE_RADIUS_M, ShownFlips, asked, classic, clearance_m, poses, range_m};
 use super::flips::{stages, whole};
-use super::plot::{BLACK, figure};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
+use crate::plot::{BLACK, figure};
 
 /// Deeper than this is a conflict, not a rounding of the primitive's end, m.
 const CONFLICT_M: f64 = 0.0005;

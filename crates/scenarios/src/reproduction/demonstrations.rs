@@ -7,10 +7,10 @@ use skills::segmentation::pushes;
 use skills::{RolloutRequest, Trajectory};
 
 use super::drawing::{OBJECT, X_CM, Y_CM, cm, line_cm, outline_cm, points};
-use super::plot::{BLACK, Chart, GRAY, ORANGE, RED, figure, fill, line};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::measures::path_length_m;
+use crate::plot::{BLACK, Chart, GRAY, ORANGE, RED, figure, fill, line};
 
 /// Distance between two looks at the heading, m, and the change that counts as a corner, rad.
 const LOOK_M: f64 = 0.005;

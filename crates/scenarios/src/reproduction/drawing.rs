@@ -5,7 +5,7 @@ use skills::Trajectory;
 use skills::outline::Outline;
 use skills::tool::Tool;
 
-use super::plot::{BLACK, Chart, DASHED, GRAY, LIGHT, RED, Style, fill, line, outlined};
+use crate::plot::{BLACK, Chart, DASHED, GRAY, LIGHT, RED, Style, fill, line, outlined};
 use crate::tasks::push::PushScenario;
 
 /// Labels of the axes of a map.

@@ -5,11 +5,11 @@ use sim::planar::EpisodeSample;
 use skills::plan::{Action, ActionKind, Plan};
 
 use super::drawing::{OBJECT, line_cm, outline_cm, start_and_goal, table, tool_cm, tool_style};
-use super::plot::{BLUE, Chart, DASHED, GRAY, ORANGE, PURPLE, RED, SKY, figure, line};
 use super::transfer::{SAFE_MARGIN_M, ends};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::outcome::Outcome;
+use crate::plot::{BLUE, Chart, DASHED, GRAY, ORANGE, PURPLE, RED, SKY, figure, line};
 
 /// Time between two points of a drawn path, s.
 const DRAWING_STEP_S: f64 = 0.02;

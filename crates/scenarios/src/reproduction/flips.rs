@@ -7,9 +7,9 @@ use skills::tool_flipping::{Flip, FlipOptions, FlipTask, SecondFactor};
 
 use super::drawing::{OBJECT, X_CM, Y_CM, cm, line_cm, outline_cm, tool_cm, tool_style};
 use super::flip_tasks::{Asked, FIGURE_RADIUS_M, FlipSkills, SAMPLES, ShownFlips, asked, poses, range_m};
-use super::plot::{BLACK, BLUE, Chart, GRAY, LIGHT, ORANGE, PURPLE, RED, figure, line, outlined};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
+use crate::plot::{BLACK, BLUE, Chart, GRAY, LIGHT, ORANGE, PURPLE, RED, figure, line, outlined};
 
 /// Stages at which the tool is drawn.
 const STAGES: usize = 4;

@@ -13,7 +13,6 @@ mod flips;
 mod page;
 mod planners;
 mod planners_figure;
-mod plot;
 mod separation;
 mod study;
 mod transfer;

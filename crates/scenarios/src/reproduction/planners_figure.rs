@@ -5,9 +5,9 @@ use skills::baseline::{ToolTurning, TwoLevelConfig, TwoLevelPlan};
 
 use super::drawing::{OBJECT, cm, line_cm, outline_cm, start_and_goal, table, tool_cm, tool_style};
 use super::planners::{Map, Searched};
-use super::plot::{BLACK, BLUE, Chart, DASHED, DOTTED, GRAY, GREEN, ORANGE, PURPLE, RED, SKY, figure, fill, line};
 use super::transfer::SAFE_MARGIN_M;
 use super::{Study, StudyError};
+use crate::plot::{BLACK, BLUE, Chart, DASHED, DOTTED, GRAY, GREEN, ORANGE, PURPLE, RED, SKY, figure, fill, line};
 
 /// Colors of the surfaces, as in Fig. 8(d).
 const SURFACES: [&str; 3] = [PURPLE, GREEN, ORANGE];

@@ -5,9 +5,9 @@ use skills::segmentation::pushes;
 use skills::{RolloutRequest, Trajectory};
 
 use super::drawing::{X_CM, Y_CM, line_cm, points};
-use super::plot::{BLACK, BLUE, Chart, GRAY, LIGHT, RED, figure, fill, line};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError};
+use crate::plot::{BLACK, BLUE, Chart, GRAY, LIGHT, RED, figure, fill, line};
 
 /// Samples of a rollout.
 const STEPS: f64 = 400.0;

@@ -5,10 +5,10 @@ use skills::outline::separation_m;
 use skills::transfer::Transfer;
 
 use super::drawing::{OBJECT, line_cm, outline_cm, points, start_and_goal, table};
-use super::plot::{BLUE, GREEN, RED, figure, fill, line};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::measures::path_length_m;
+use crate::plot::{BLUE, GREEN, RED, figure, fill, line};
 use crate::tasks::push::ResolvedPush;
 
 /// The paper's safe margin between object and obstacle, m (§IV.A.1).

@@ -3,14 +3,14 @@
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::plot::{BLACK, BLUE, Chart, DASHED, ORANGE, figure, line};
 use super::verdict::{Finding, Verdict};
 use super::{Figure, Part, Study, StudyError, Table};
 use crate::outcome::Outcome;
 use crate::pipeline;
+use crate::plot::{BLACK, BLUE, Chart, DASHED, ORANGE, figure, line};
 use crate::scenario::ResolvedScenario;
+use crate::statistics::wilson;
 use crate::tasks::push::ExecutionMode;
-use crate::trials::wilson;
 
 /// Ways in which a plan is carried out.
 const MODES: [(&str, ExecutionMode); 2] =

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::changes::{Change, changed};
 use super::check::check_arm;
 use super::decode::{Flaw, decode};
 use super::document::{Node, Value, path};
@@ -30,6 +31,25 @@ pub(crate) type Loader = fn(&Source, &Source, &Assets) -> Result<ResolvedScenari
 pub fn load(file: &Path, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagnostic>> {
     let source = Source::read(file).map_err(|problem| vec![*problem])?;
     resolve(&source, assets)
+}
+
+/// Reads and checks a scenario of which some values are changed; `file` is the name under which the user knows its text.
+///
+/// # Errors
+/// As [`load`]; each problem says which values were changed.
+pub fn load_text(
+    file: &Path,
+    text: &str,
+    changes: &[Change],
+    assets: &Assets,
+) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let source = Source { file: file.to_owned(), text: text.into() };
+    let result = changed(&source, changes).map_err(|problem| vec![*problem]);
+    result.and_then(|source| resolve(&source, assets)).map_err(|problems| {
+        let stated: Vec<String> = changes.iter().map(Change::to_string).collect();
+        let remark = (!stated.is_empty()).then(|| format!("the file is read with {}", stated.join(", ")));
+        problems.into_iter().map(|problem| problem.help(remark.clone())).collect()
+    })
 }
 
 /// Remarks on a scenario that can be used: oddities of its robot's description.
@@ -94,16 +114,18 @@ pub(crate) fn load_as<F: ReadScenario>(
     let refused = file.refused_values();
     problems.extend(refused.iter().cloned().map(|error| field_problem(context, error)));
     let name = file.header_mut().name.get_or_insert_with(|| name_of_file(&source.file)).clone();
-    let mut reader = Reader { assets, context, problems };
+    let asset_changes = file.header_mut().asset_changes.clone();
+    let mut reader = Reader { assets, context, problems, asset_changes, used: Vec::new(), asked: Vec::new() };
     let arm = reader.arm("robot.asset", file.arm().asset);
     let against_arm = arm.as_ref().map(|arm| check_arm(context, &file.arm(), arm));
     reader.problems.extend(against_arm.into_iter().flatten());
     let task = file.resolve(&mut reader, &refused);
-    let mut problems = reader.problems;
+    reader.refuse_idle_changes();
+    let (mut problems, used) = (reader.problems, reader.used);
     problems.sort_by_key(|problem| (problem.file != source.file, problem.place.as_ref().map(|place| place.span.start)));
     match (arm, task) {
         (Some(arm), Some(task)) if problems.is_empty() => {
-            Ok(ResolvedScenario { name, arm, source: source.text.to_string(), task })
+            Ok(ResolvedScenario { name, arm, source: source.text.to_string(), assets: used, task })
         }
         _ => Err(problems),
     }

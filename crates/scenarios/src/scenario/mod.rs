@@ -1,5 +1,6 @@
 //! The scenario file: everything that a run depends on, as one serializable struct for each kind of task.
 
+pub(crate) mod changes;
 mod check;
 mod decode;
 mod document;
@@ -15,14 +16,23 @@ mod source;
 mod units;
 mod words;
 
-pub(crate) use document::path;
+pub(crate) use changes::INTO_ASSET;
+pub use changes::{Change, check_key, parse_value};
+pub(crate) use document::{Node, Value, path};
+pub(crate) use draft::{Draft, read as read_draft};
 pub(crate) use explain::{Context, key_name};
 pub(crate) use load::{Loader, load_as};
-pub use load::{load, notes, title};
-pub(crate) use named::{Reader, asset_description, demonstration_description, skills_description, stated_description};
+pub use load::{load, load_text, notes, title};
+pub(crate) use named::{
+    Reader, asset_description, asset_source, demonstration_description, field_problem, skills_description,
+    stated_description,
+};
 pub use parts::{CONTROL_RATE_HZ, LARGEST_SEED};
-pub use resolved::ResolvedScenario;
+pub(crate) use parts::{is_in_name, name_of_file};
 pub(crate) use resolved::{ArmKeys, ReadScenario, ScenarioFile};
+pub use resolved::{AssetUsed, ResolvedScenario};
 pub use shared::{Header, RecordingConfig, RobotConfig, ToolConfig};
-pub use skills_file::{Origin, SkillsFile};
+pub(crate) use skills_file::describe as describe_skills;
+pub use skills_file::{KeptSkills, Origin, SavedSkills, SkillsFile};
 pub(crate) use source::Source;
+pub(crate) use units::unit_of;

@@ -1,23 +1,28 @@
 //! What a scenario names: tools, arm and recorded demonstrations, read from the assets and checked.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use robot::{Manipulator, MeshOptions};
 use serde::de::DeserializeOwned;
 use skills::demonstration::Demonstration;
 use skills::field::FieldError;
+use skills::primitive::RestoreError;
 use skills::primitive::pose::PoseTrajectory;
 use skills::tool::{Tool, ToolFile};
 
+use super::changes::{INTO_ASSET, changed_asset};
 use super::document::{Node, Value, path};
 use super::draft::{Draft, read};
 use super::explain::{Context, bad_value, key_name};
-use super::skills_file::{self, SkillsFile};
+use super::skills_file::{self, SavedSkills, SkillsFile};
 use super::source::Source;
+use super::{AssetUsed, ResolvedScenario};
 use crate::assets::{AssetError, AssetKind, Assets};
 use crate::diagnostic::Diagnostic;
 use crate::suggest::{did_you_mean, listed};
-use crate::tasks::{is_poses, read_demonstration, read_poses};
+use crate::tasks::spatial::{is_poses, read_poses};
+use crate::tasks::{TASKS, read_demonstration};
 
 /// What is described by TOML files of its own in the assets.
 pub(crate) trait TomlAsset: Sized {
@@ -54,6 +59,12 @@ pub(crate) struct Reader<'a> {
     pub context: Context<'a>,
     /// What is wrong.
     pub problems: Vec<Diagnostic>,
+    /// What the scenario changes in them: a key of the scenario, a colon, a key of the file, and the value.
+    pub asset_changes: BTreeMap<String, toml::Value>,
+    /// The files that were read.
+    pub used: Vec<AssetUsed>,
+    /// The keys that asked for files.
+    pub asked: Vec<String>,
 }
 
 impl Reader<'_> {
@@ -92,22 +103,26 @@ impl Reader<'_> {
         self.keep(key, result)
     }
 
-    /// Reads the recorded poses of a knife `name` that the key at `key` asks for.
+    /// Reads the recorded poses `name` of what was held that the key at `key` asks for.
     pub fn poses(&mut self, key: &str, name: &str) -> Option<PoseTrajectory> {
         let source = self.source(AssetKind::Demonstration, key, name)?;
         let result = read_poses(&source).map_err(|problem| vec![*problem]);
         self.keep(key, result)
     }
 
-    /// Reads the skills `name` that the key at `key` asks for, and the tool that they were learned with.
-    pub fn skills(&mut self, key: &str, name: &str) -> Option<(Tool, SkillsFile)> {
+    /// Reads the skills `name` of one kind of task that the key at `key` asks for, and hands them to `restore`, which finds
+    /// out whether they can be used.
+    pub fn skills<S: SavedSkills, T>(
+        &mut self,
+        key: &str,
+        name: &str,
+        restore: impl FnOnce(&mut Self, SkillsFile<S>) -> Option<Result<T, RestoreError>>,
+    ) -> Option<T> {
         let source = self.source(AssetKind::Skills, key, name)?;
         let result = skills_file::read(&source);
         let file = self.keep(key, result)?;
-        let tool: Tool = self.asset(key, &file.learned.tool)?;
-        let result = skills_file::check(&source, &file, &tool);
-        self.keep(key, result)?;
-        Some((tool, file))
+        let restored = restore(self, file)?.map_err(|error| skills_file::refusal::<S>(&source, error));
+        self.keep(key, restored)
     }
 
     /// Keeps a value, or its problems with a remark on who asked for the file.
@@ -125,8 +140,36 @@ impl Reader<'_> {
 
     fn source(&mut self, kind: AssetKind, key: &str, name: &str) -> Option<Source> {
         let result = self.assets.path(kind, name).map_err(|error| Box::new(self.refused(kind, key, name, error)));
-        let result = result.and_then(|file| Source::read(&file));
-        result.map_err(|problem| self.problems.push(*problem)).ok()
+        let source = result.and_then(|file| Source::read(&file));
+        let source = source.map_err(|problem| self.problems.push(*problem)).ok()?;
+        let digest = blake3::hash(source.text.as_bytes()).to_hex().to_string();
+        self.used.push(AssetUsed { key: key.to_owned(), kind, name: name.to_owned(), digest });
+        if kind.extension() != "toml" {
+            return Some(source);
+        }
+        self.asked.push(key.to_owned());
+        let changed = changed_asset(&source, key, &self.asset_changes);
+        changed.map_err(|problem| self.problems.push(*problem)).ok()
+    }
+
+    /// Complains about changes in assets that no key asks for, or that are no TOML.
+    pub fn refuse_idle_changes(&mut self) {
+        // after another problem, not every key has had its turn
+        if !self.problems.is_empty() {
+            return;
+        }
+        let own = |whole: &str| whole.split_once(INTO_ASSET).map_or(whole, |(own, _)| own).to_owned();
+        let idle = self.asset_changes.keys().filter(|whole| !self.asked.contains(&own(whole)));
+        let problems: Vec<Diagnostic> = idle
+            .map(|whole| {
+                let key = ["scenario".to_owned(), "asset_changes".to_owned(), whole.clone()];
+                self.context
+                    .problem_at_value(&key, format!("`{}` names no asset", own(whole)))
+                    .expected(format!("one of {} before the colon", listed(&self.asked)))
+                    .help(did_you_mean(&own(whole), &self.asked))
+            })
+            .collect();
+        self.problems.extend(problems);
     }
 
     fn refused(&self, kind: AssetKind, key: &str, name: &str, error: AssetError) -> Diagnostic {
@@ -150,6 +193,12 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// The file of the asset that a key of a scenario names, if it is one of TOML.
+pub(crate) fn asset_source(scenario: &ResolvedScenario, key: &str, assets: &Assets) -> Option<Source> {
+    let used = scenario.assets.iter().find(|used| used.key == key && used.kind.extension() == "toml")?;
+    Source::read(&assets.path(used.kind, &used.name).ok()?).ok()
 }
 
 /// Reads and checks the file of an asset.
@@ -189,7 +238,7 @@ pub(crate) fn demonstration_description(file: &Path) -> Result<String, Box<Diagn
     let source = Source::read(file)?;
     if is_poses(&source) {
         let poses = read_poses(&source)?;
-        return Ok(format!("{:.1} s: {} poses of a knife", poses.duration_s(), poses.poses().len()));
+        return Ok(format!("{:.1} s: {} poses in space", poses.duration_s(), poses.poses().len()));
     }
     let Demonstration { tool, object, .. } = read_demonstration(&source)?;
     Ok(format!("{:.1} s: {} poses of the tool, {} of the object", tool.duration_s(), tool.len(), object.len()))
@@ -198,10 +247,12 @@ pub(crate) fn demonstration_description(file: &Path) -> Result<String, Box<Diagn
 /// Origin of learned skills, for lists.
 pub(crate) fn skills_description(file: &Path) -> Result<String, Vec<Diagnostic>> {
     let source = Source::read(file).map_err(|problem| vec![*problem])?;
-    let SkillsFile { learned, skills, .. } = skills_file::read(&source)?;
-    let shown = learned.demonstrations.len();
-    let pushes = skills.pushes.iter().map(|push| push.surface.as_str()).collect::<Vec<_>>().join(" - ");
-    Ok(format!("{pushes}, with the tool `{}`, from {shown} demonstrations of {}", learned.tool, learned.scenario))
+    let task = skills_file::task_of(&source).map_err(|problem| vec![*problem])?;
+    let kind = TASKS.iter().find(|kind| kind.name == task);
+    match kind.and_then(|kind| kind.skills) {
+        Some(describe) => describe(&source),
+        None => Err(vec![Diagnostic::of_file(&source.file, "skills of an unknown kind of task").found(task)]),
+    }
 }
 
 /// A refused value of a checked struct, at its place.

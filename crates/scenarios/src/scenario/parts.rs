@@ -4,7 +4,8 @@ use std::path::Path;
 
 use skills::field::{FieldError, finite, not_negative, within};
 
-use super::{Header, RecordingConfig, RobotConfig};
+use super::changes::INTO_ASSET;
+use super::{Header, RecordingConfig, RobotConfig, check_key};
 
 /// Control periods per simulated second, Hz: nothing happens more often than this in a recording.
 pub const CONTROL_RATE_HZ: f64 = 1000.0;
@@ -28,12 +29,18 @@ impl Header {
         if self.seed > LARGEST_SEED {
             return Err(FieldError::new("seed", self.seed, format!("a whole number from 0 to {LARGEST_SEED}")));
         }
-        Ok(())
+        let no_asset = |key: &&String| !key.contains(INTO_ASSET) || check_key(key).is_err();
+        match self.asset_changes.keys().find(no_asset) {
+            Some(key) => {
+                Err(FieldError::new("asset_changes", format!("the key {key:?}"), "keys such as \"tool.asset:mass_kg\""))
+            }
+            None => Ok(()),
+        }
     }
 }
 
 /// Whether `letter` may stand in a scenario's name, which is also that of a folder.
-fn is_in_name(letter: char) -> bool {
+pub(crate) fn is_in_name(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_' || letter == '-'
 }
 
@@ -76,7 +83,8 @@ mod tests {
 
     fn named(name: &str) -> Result<(), FieldError> {
         let (title, description) = ("a title".to_owned(), String::new());
-        Header { name: Some(name.to_owned()), title, description, seed: 1 }.validate()
+        Header { name: Some(name.to_owned()), title, description, seed: 1, asset_changes: Default::default() }
+            .validate()
     }
 
     #[test]

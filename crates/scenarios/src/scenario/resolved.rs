@@ -6,9 +6,23 @@ use sim::controllers::ControllerConfig;
 use skills::field::FieldError;
 
 use super::{Header, Reader, RecordingConfig};
-use crate::tasks::ResolvedTask;
+use crate::assets::AssetKind;
 use crate::tasks::push::ResolvedPush;
 use crate::tasks::spatial::SpatialRobotConfig;
+use crate::tasks::{ResolvedTask, TASKS};
+
+/// A file of the assets that a scenario names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AssetUsed {
+    /// Key of the scenario that asked for it.
+    pub key: String,
+    /// What it is.
+    pub kind: AssetKind,
+    /// Name of the file, without its ending.
+    pub name: String,
+    /// Digest of its bytes, before changes that the scenario makes in it.
+    pub digest: String,
+}
 
 /// A checked scenario together with everything that it names.
 #[derive(Clone, Debug)]
@@ -19,6 +33,8 @@ pub struct ResolvedScenario {
     pub arm: Manipulator,
     /// The scenario file's text, as it was read.
     pub source: String,
+    /// The files that it names, in the order in which they were read.
+    pub assets: Vec<AssetUsed>,
     /// The scenario with all defaults filled in, the name too, and what else it names: its shape is that of its task.
     pub task: ResolvedTask,
 }
@@ -28,6 +44,12 @@ impl ResolvedScenario {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         self.task.part().kind()
+    }
+
+    /// The key that names what the arm holds, if the scenario chooses that.
+    #[must_use]
+    pub fn tool_key(&self) -> Option<&'static str> {
+        TASKS.iter().find(|kind| kind.name == self.kind())?.tool_key
     }
 
     /// Name, title, description and seed.

@@ -1,12 +1,14 @@
 //! Sections that scenario files of several kinds of tasks share.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use sim::controllers::ControllerConfig;
 
 use super::ArmKeys;
 
 /// Name, title, description and seed of a scenario.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Header {
     /// Name in results and of their folder: letters, digits, `_` and `-`; the file's name without its ending if absent.
@@ -20,6 +22,11 @@ pub struct Header {
     /// All randomness of a run comes from here.
     #[serde(default = "default_seed")]
     pub seed: u64,
+    /// Values that differ from those in the files of assets that the scenario names: `"tool.asset:family.l.arm_m" = 0.05`
+    /// is the arm's length in the tool that `tool.asset` names.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    pub asset_changes: BTreeMap<String, toml::Value>,
 }
 
 fn default_seed() -> u64 {
@@ -27,18 +34,20 @@ fn default_seed() -> u64 {
 }
 
 /// The tool in the hand.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToolConfig {
     /// Name of a file in `assets/tools`, without its ending.
+    #[schemars(extend("x-asset" = "tools"))]
     pub asset: String,
 }
 
 /// The arm that holds the tool, on a base in the plane.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RobotConfig {
     /// Name of a URDF file in `assets/robots`, without its ending.
+    #[schemars(extend("x-asset" = "robots"))]
     pub asset: String,
     /// Position of the arm's base in the world, m.
     #[serde(default)]
@@ -72,7 +81,7 @@ fn default_tool_frame() -> String {
 }
 
 /// What the recording holds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RecordingConfig {
     /// Samples per simulated second in the recording, Hz.

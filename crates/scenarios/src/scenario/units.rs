@@ -102,6 +102,12 @@ pub(crate) fn mistaken_unit(key: &str, node: &Node, known: &[&'static str]) -> O
     })
 }
 
+/// The unit that the suffix of a key names, in words: "meters"; `None` if it has none of the common ones.
+pub(crate) fn unit_of(key: &str) -> Option<&'static str> {
+    let family = FAMILIES.iter().find(|family| stem(key, family.suffix).is_some())?;
+    Some(family.rule.split_once(" in ").map_or("1/s", |(_, unit)| unit))
+}
+
 fn stem<'a>(key: &'a str, suffix: &str) -> Option<&'a str> {
     key.strip_suffix(suffix)?.strip_suffix('_')
 }

@@ -38,7 +38,8 @@ pub struct DemonstrationTrial {
     pub success: bool,
     /// Why not; `null` on success.
     pub failure: Option<String>,
-    /// True distance of the object from where it was wanted, mm; of a cut, that of the edge from the board at its deepest.
+    /// True distance of the object from where it was wanted, mm; of a cut, that of the edge from the board at its deepest; of a pour,
+    /// the level one of the lip from the middle of the mouth at the greatest tilt.
     pub goal_error_mm: f64,
     /// Recorded time, s.
     pub duration_s: f64,

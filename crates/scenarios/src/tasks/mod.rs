@@ -7,7 +7,9 @@
 //! - a struct of that and of what else the file names, read by `ReadScenario::resolve`: it is the variant of
 //!   [`ResolvedTask`], and by `TaskPart` it starts the task;
 //! - the task itself, the verbs of [`Task`];
-//! - a [`TaskKind`]: name, summary, a shipped scenario that shows how keys are written, `load_as` of the file's struct.
+//! - a [`TaskKind`]: name, summary, a shipped scenario that shows how keys are written, `load_as` and `subschema` of the
+//!   file's struct;
+//! - if the kind learns, `SavedSkills` for what it keeps of its skills in a file.
 //!
 //! Its lines here are `mod`, one variant of [`ResolvedTask`] and its arm in `ResolvedTask::part`, and one entry of
 //! [`TASKS`]. Loading, running, learning, lists, reports and recordings follow from these.
@@ -24,7 +26,6 @@ use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, EnumAccess, Error as _, IgnoredAny, VariantAccess, Visitor};
 
-pub(crate) use cut::{is_poses, read_poses};
 pub(crate) use demonstrations::MOST_DEMONSTRATIONS;
 pub use demonstrations::{DEMONSTRATIONS_SCHEMA, DemonstrationTrial, DemonstrationsReport, ShownTrial};
 pub(crate) use push::read_demonstration;
@@ -33,9 +34,11 @@ pub(crate) use runnable::Runnable;
 use robot::RobotError;
 use sim::SimError;
 
+use crate::diagnostic::Diagnostic;
 use crate::outcome::Outcome;
 use crate::pipeline::{Onlooker, Progress};
-use crate::scenario::{Loader, ResolvedScenario, ScenarioFile, SkillsFile, Source};
+use crate::scenario::{KeptSkills, Loader, ResolvedScenario, ScenarioFile, Source};
+use crate::schema::Subschema;
 
 /// All kinds of tasks.
 pub const TASKS: &[TaskKind] = &[push::KIND, reach::KIND, cut::KIND, pour::KIND];
@@ -123,7 +126,7 @@ pub trait Task {
     ) -> Result<(), StageError> {
         let _ = (count, progress, each);
         Err(StageError::Input(
-            "tasks of this kind have no synthetic human; expected a task that has one, such as push".into(),
+            "tasks of this kind have no synthetic human; expected a task that has one: push, cut or pour".into(),
         ))
     }
 
@@ -136,12 +139,10 @@ pub trait Task {
     /// Takes down the skills, to be written to a file.
     ///
     /// # Errors
-    /// A [`StageError`] if skills of this kind cannot be kept.
-    fn save(&self, skills: &Self::Skills) -> Result<SkillsFile, StageError> {
-        let _ = skills;
-        Err(StageError::Input(
-            "skills of tasks of this kind cannot be kept in a file; expected a task that can, such as push".into(),
-        ))
+    /// A [`StageError`] if tasks of this kind learn nothing, or the skills cannot be written down.
+    fn save(&self, shown: &Self::Shown, skills: &Self::Skills) -> Result<KeptSkills, StageError> {
+        let _ = (shown, skills);
+        Err(StageError::Input("tasks of this kind learn nothing; expected a task that does: push, cut or pour".into()))
     }
 
     /// Plans the task with the skills, and checks that the arm can carry the plan out.
@@ -174,6 +175,9 @@ pub enum StageError {
     Broken(String),
 }
 
+/// Tells of a file of skills.
+pub(crate) type DescribeSkills = fn(&Source) -> Result<String, Vec<Diagnostic>>;
+
 /// A kind of task.
 #[derive(Clone, Copy, Debug)]
 pub struct TaskKind {
@@ -183,8 +187,14 @@ pub struct TaskKind {
     pub summary: &'static str,
     /// Path and text of a shipped scenario of this kind, which shows how keys are written.
     pub(crate) example: (&'static str, &'static str),
+    /// Key of the scenario that names what the arm holds; `None` if that is not the scenario's choice.
+    pub(crate) tool_key: Option<&'static str>,
     /// Reads a scenario of this kind.
     pub(crate) load: Loader,
+    /// Tells of a file of skills of this kind in a few words, for lists; `None` if the kind learns nothing.
+    pub(crate) skills: Option<DescribeSkills>,
+    /// Schema of a scenario of this kind.
+    pub(crate) schema: Subschema,
 }
 
 impl TaskKind {

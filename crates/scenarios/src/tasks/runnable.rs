@@ -2,7 +2,7 @@
 
 use super::{ShownTrial, StageError, Task};
 use crate::pipeline::{Onlooker, Progress, Report, RunError, learn_task, run_task};
-use crate::scenario::{ResolvedScenario, SkillsFile};
+use crate::scenario::{KeptSkills, ResolvedScenario};
 
 /// A task of any kind, ready to be run.
 pub(crate) trait Runnable {
@@ -16,7 +16,7 @@ pub(crate) trait Runnable {
     ) -> Result<Report, RunError>;
 
     /// Runs its verbs up to learning.
-    fn learn(&self, progress: Progress<'_>) -> Result<Result<SkillsFile, String>, RunError>;
+    fn learn(&self, progress: Progress<'_>) -> Result<Result<KeptSkills, String>, RunError>;
 
     /// Lets its synthetic human show it.
     fn show(
@@ -38,7 +38,7 @@ impl<T: Task> Runnable for T {
         run_task(self, scenario, seed, observer, progress)
     }
 
-    fn learn(&self, progress: Progress<'_>) -> Result<Result<SkillsFile, String>, RunError> {
+    fn learn(&self, progress: Progress<'_>) -> Result<Result<KeptSkills, String>, RunError> {
         learn_task(self, progress)
     }
 

@@ -1,6 +1,6 @@
 //! The layout of a spatial run: the scene on the left, curves and texts on the right.
 
-use nalgebra::Vector3;
+use nalgebra::{Point3, Vector3};
 use rerun::RecordingStreamResult;
 use rerun::blueprint::components::{BackgroundKind, ContainerKind, Eye3DKind};
 use rerun::external::re_sdk_types::blueprint::archetypes as blueprint;
@@ -18,17 +18,22 @@ const EYE_DISTANCE: f64 = 2.0;
 
 /// Writes the layout and returns its root.
 pub(super) fn write(layout: &mut Layout, scene: &SceneDescription) -> RecordingStreamResult<Node> {
-    let space = space(layout, scene)?;
+    let space = space(layout, "scene", &scene.focus_world)?;
     let left = layout.container(ContainerKind::Vertical, "scene", &[&space], &[])?;
     let right = right(layout, scene)?;
     layout.container(ContainerKind::Horizontal, "run", &[&left, &right], &[1.3, 1.0])
 }
 
-fn space(layout: &mut Layout, scene: &SceneDescription) -> RecordingStreamResult<Node> {
-    let view = layout.view("3D", "scene", "/world", &["+ /world/**"])?;
+/// The view of the scene; `focus_world` are middle and radius of what is worth seeing, m.
+pub(in crate::recording) fn space(
+    layout: &mut Layout,
+    name: &str,
+    focus_world: &(Point3<f64>, f64),
+) -> RecordingStreamResult<Node> {
+    let view = layout.view("3D", name, "/world", &["+ /world/**"])?;
     let background = blueprint::Background::new(BackgroundKind::SolidColor).with_color(style::BACKGROUND);
     layout.property(&view, "Background", &background)?;
-    let (center, radius_m) = &scene.focus_world;
+    let (center, radius_m) = focus_world;
     let eye = center + Vector3::from(EYE_DIRECTION).normalize() * (EYE_DISTANCE * radius_m);
     let controls = blueprint::EyeControls3D::new()
         .with_kind(Eye3DKind::Orbital)

@@ -1,6 +1,6 @@
 //! Recordings of spatial runs: the arm's links and the tool as shapes, the task's bodies as meshes, grains as one entity.
 
-mod layout;
+pub(super) mod layout;
 mod moving;
 mod plots;
 mod row;
@@ -15,7 +15,9 @@ use self::moving::Moving;
 use self::plots::Plots;
 use self::row::Row;
 use self::trail::Trail;
+use super::curves::Curves;
 use super::row::Decimator;
+use super::side_by_side::View;
 use super::times::Times;
 use super::{Recorder, Run};
 
@@ -42,6 +44,11 @@ impl SpaceRun {
             trail: Trail::new("/world/tool_path", rows),
             bodies_are_new: false,
         }
+    }
+
+    /// The curves.
+    pub(super) fn curves(&self) -> &Curves {
+        self.plots.curves()
     }
 
     /// Number of rows that wait.
@@ -92,6 +99,7 @@ impl Observer for Recorder {
         let drawn = scene::send(&self.stream, scene);
         let named = run.plots.send_static(&self.stream);
         let laid_out = super::layout::send(&self.stream, |layout| layout::write(layout, scene));
+        self.view = Some(View::Space(scene.focus_world));
         self.run = Some(Run::Space(Box::new(run)));
         self.note("draw the scene", drawn);
         self.note("name the series", named);

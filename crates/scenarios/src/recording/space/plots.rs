@@ -69,6 +69,11 @@ impl Plots {
         self.curves.push(single.into_iter().chain(joints.values(self.joints.len())).chain(task));
     }
 
+    /// The curves.
+    pub(super) fn curves(&self) -> &Curves {
+        &self.curves
+    }
+
     /// Sends names and colors.
     pub(super) fn send_static(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         self.curves.send_static(stream)

@@ -2,10 +2,12 @@
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
 use sim::cutting::food::{Food, FoodFile, FoodSample};
+use sim::random::{Purpose, normal, stream};
 use skills::field::FieldError;
 
 use super::places::lying;
 use super::scenario::CutScenario;
+use super::sections::LookConfig;
 use super::variation::Variation;
 use crate::outcome::Measure;
 
@@ -23,9 +25,39 @@ pub(super) struct Lying {
 pub(super) struct Actual {
     /// What lies on the board.
     pub there: Lying,
-    /// What the planner takes it for: of its true size, otherwise as the scenario states.
+    /// What the planner takes it for: of its true size, where it sees it or, if it does not look, where the scenario states.
     pub believed: Lying,
     variation: Variation,
+    /// Where the planner believes it to lie, less the stated place.
+    seen: Offset,
+}
+
+/// A place and an angle less the stated ones, m and rad.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Offset {
+    place_m: [f64; 2],
+    angle_rad: f64,
+}
+
+impl Offset {
+    /// What a look at a food finds that lies `variation` off its stated place; nothing without a look.
+    fn seen(look: Option<&LookConfig>, variation: &Variation, seed: u64) -> Self {
+        let Some(look) = look else { return Self::default() };
+        let mut random = stream(seed, Purpose::Camera, 0);
+        let [x, y, angle] = [(); 3].map(|()| normal(&mut random));
+        let [true_x, true_y] = variation.place_m;
+        Self {
+            place_m: [true_x + look.place_noise_m * x, true_y + look.place_noise_m * y],
+            angle_rad: variation.angle_rad + look.angle_noise_rad * angle,
+        }
+    }
+
+    /// A food at rest where the scenario lays it, moved and turned by this.
+    fn moved(&self, rest: &Isometry3<f64>) -> Isometry3<f64> {
+        let ([x, y], at) = (self.place_m, rest.translation);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.angle_rad);
+        Isometry3::from_parts(Translation3::new(at.x + x, at.y + y, at.z), turn * rest.rotation)
+    }
 }
 
 impl Actual {
@@ -46,19 +78,16 @@ impl Actual {
         Ok(Self {
             there: lies(food, [x + dx, y + dy], task.food_angle_rad + variation.angle_rad),
             believed: lies(believed, task.food_at_m, task.food_angle_rad),
+            seen: Offset::seen(scenario.look.as_ref(), &variation, seed),
             variation,
         })
     }
 
     /// The same with the food at rest at `world_from_rest` where the scenario lays it.
     pub fn settled(mut self, world_from_rest: Isometry3<f64>) -> Self {
-        let [x, y] = self.variation.place_m;
-        let at = world_from_rest.translation;
-        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), self.variation.angle_rad);
-        let turned =
-            Isometry3::from_parts(Translation3::new(at.x + x, at.y + y, at.z), turn * world_from_rest.rotation);
-        self.believed.world_from_food = world_from_rest;
-        self.there.world_from_food = turned;
+        let Variation { place_m, angle_rad, .. } = self.variation;
+        self.believed.world_from_food = self.seen.moved(&world_from_rest);
+        self.there.world_from_food = Offset { place_m, angle_rad }.moved(&world_from_rest);
         self
     }
 

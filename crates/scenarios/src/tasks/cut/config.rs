@@ -7,7 +7,7 @@ use skills::cutting::CutOptions;
 use skills::field::{FieldError, finite, within};
 
 /// Cut a food on a board.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutConfig {
     /// Where the origin of the food's frame lies on the board, x and y of the world, m.
@@ -32,7 +32,7 @@ pub struct CutConfig {
 }
 
 /// Where a food is to be cut, along its long axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Wanted {
     /// Into this many pieces of the same length.

@@ -6,8 +6,8 @@ mod demonstrations;
 mod expecting;
 mod holding;
 mod judge;
+mod learned;
 mod places;
-mod recorded;
 mod resolved;
 mod scenario;
 mod sections;
@@ -18,16 +18,15 @@ use sim::SimError;
 use sim::cutting::geometry::{Plane, Solid};
 use sim::cutting::scene::{CuttingProcess, CuttingRecord, CuttingSetup, held_knife, knife_from_tool, pose_at_rest};
 use sim::spatial::{Episode, HeldTool, SpatialSetup, SpatialWorld, simulate, standard_gravity};
-use skills::cutting::{CutPlan, CutSkill, CutTask as CutsAsked};
+use skills::cutting::{CutPlan, CutSkill, CutTask as CutsAsked, SavedCut};
 use skills::spatial::{SpatialPlan, SpatialReport};
 
 pub use config::{CutConfig, Wanted};
-pub(crate) use recorded::{is_poses, read as read_poses};
 pub use resolved::ResolvedCut;
 pub use scenario::{CutScenario, CutTable};
 pub use sections::{
-    BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, RecordedConfig, SkillKind,
-    SyntheticConfig,
+    BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig, RecordedConfig,
+    SkillKind, SyntheticConfig,
 };
 pub use variation::{Variation, VariationConfig};
 
@@ -36,22 +35,26 @@ use self::demonstrations::Shown;
 use self::expecting::WithCuttingForces;
 use self::holding::{LevelEdge, carried, edge_in};
 use self::places::{Place, extent_m, lowest_m, place};
-use super::spatial::{HeldArm, Readied, built};
+use super::spatial::{Aim, HeldArm, Readied, built};
 use super::{ShownTrial, StageError, Task, TaskKind, broken};
 use crate::outcome::Outcome;
 use crate::pipeline::{Onlooker, Progress};
-use crate::scenario::{ResolvedScenario, load_as};
+use crate::scenario::{KeptSkills, ResolvedScenario, describe_skills, load_as};
+use crate::schema::subschema;
 
 /// The kind.
 pub(crate) const KIND: TaskKind = TaskKind {
     name: "cut",
     summary: "cut a food on a board into pieces with a knife",
     example: ("scenarios/cut_banana_three.toml", include_str!("../../../../../scenarios/cut_banana_three.toml")),
+    tool_key: Some("knife.asset"),
     load: load_as::<CutScenario>,
+    skills: Some(describe_skills::<SavedCut>),
+    schema: subschema::<CutScenario>,
 };
 
 /// Radius around the food that is worth seeing, m.
-const FOCUS_RADIUS_M: f64 = 0.3;
+const FOCUS_RADIUS_M: f64 = 0.22;
 /// Time between two looks at how deep the edge goes, s.
 const LOOK_S: f64 = 0.005;
 /// What the edge may be planned past the limit of its part that is planned for, m: its rise where it is not level.
@@ -166,13 +169,21 @@ impl<'a> CutTask<'a> {
 
     /// The reference of the arm: the plan, and the cutting forces to be expected if the scenario wants them.
     fn source<'p>(&'p self, planned: &'p Planned) -> WithCuttingForces<'p> {
-        if !self.cut.scenario.execution.expects_cutting_force {
+        let scenario = &self.cut.scenario;
+        if !scenario.execution.expects_cutting_force {
             return WithCuttingForces::none(&planned.plan);
         }
         let cuts: Vec<(usize, &Place)> =
             planned.cuts.iter().zip(&planned.places).map(|(cut, place)| (cut.action, place)).collect();
         let food = &planned.actual.believed.food;
-        WithCuttingForces::new(&planned.plan, &cuts, food, &self.cut.knife, &self.tool_from_edge)
+        let expecting = WithCuttingForces::new(&planned.plan, &cuts, food, &self.cut.knife, &self.tool_from_edge);
+        if !scenario.execution.learns_toughness {
+            return expecting;
+        }
+        let stated = food.material.toughness_j_per_m2;
+        let toughest = self.cut.food.range.toughness_j_per_m2.map_or(stated, |[_, most]| most);
+        let edge = edge_in(&self.cut.knife, &knife_from_tool(&self.cut.knife).inverse());
+        expecting.learning(toughest / stated, edge, scenario.board.top_m())
     }
 
     /// The scene with a food that lies on the board.
@@ -230,8 +241,11 @@ impl Task for CutTask<'_> {
     }
 
     fn learn(&self, shown: &Shown) -> Result<CutSkill, StageError> {
-        CutSkill::learn(&self.cut.scenario.learning, &shown.demonstration)
-            .map_err(|error| StageError::Infeasible(error.to_string()))
+        learned::learn(self, shown)
+    }
+
+    fn save(&self, shown: &Shown, skill: &CutSkill) -> Result<KeptSkills, StageError> {
+        learned::kept(self, shown, skill)
     }
 
     fn plan(&self, skill: &CutSkill) -> Result<Planned, StageError> {
@@ -248,7 +262,9 @@ impl Task for CutTask<'_> {
             self.check_board(&plan)?;
         }
         let arm = HeldArm::new(&self.scenario.arm, robot, &self.tool(), self.seed)?;
-        let ready = arm.ready(&plan, &scenario.controller, &scenario.engine)?;
+        let remedy = "move the board and the food nearer, lower task.cut.home_m, or turn the knife in the hand";
+        let aim = Aim { task: KIND.name, arm: &robot.asset, held: "the middle of the edge", remedy };
+        let ready = arm.ready(&plan, &scenario.controller, &scenario.engine, &aim)?;
         let wanted = pieces(&actual.believed.food.solid, &actual.believed.world_from_food, &places);
         Ok(Planned { plan, cuts, places, wanted, report, ready, actual })
     }

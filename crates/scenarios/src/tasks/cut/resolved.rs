@@ -2,6 +2,7 @@
 
 use sim::cutting::food::FoodFile;
 use sim::cutting::knife::{Knife, KnifeFile};
+use skills::cutting::SavedCut;
 use skills::field::FieldError;
 use skills::primitive::pose::PoseTrajectory;
 
@@ -13,7 +14,7 @@ use super::sections::DemonstrationsConfig;
 use super::{CutTask, KIND};
 use crate::assets::AssetKind;
 use crate::scenario::named::{TomlAsset, field_problem};
-use crate::scenario::{ReadScenario, Reader, ResolvedScenario, ScenarioFile};
+use crate::scenario::{ReadScenario, Reader, ResolvedScenario, ScenarioFile, SkillsFile};
 use crate::tasks::{ResolvedTask, Runnable, TaskPart, written};
 
 /// What a checked scenario of a cut holds.
@@ -31,6 +32,8 @@ pub struct ResolvedCut {
     pub shown_knife: Knife,
     /// The recorded poses of the knife, if the scenario names such.
     pub recorded: Option<PoseTrajectory>,
+    /// The skill that the scenario names instead of a demonstration.
+    pub learned: Option<SkillsFile<SavedCut>>,
 }
 
 impl TomlAsset for FoodFile {
@@ -85,9 +88,16 @@ impl ReadScenario for CutScenario {
         let shown_food = shown_food.map_or_else(|| food.clone(), |name| reader.asset(food_key, name));
         let shown_knife = shown_knife.map_or_else(|| knife.clone(), |name| read_knife(reader, knife_key, name));
         let recorded = match &self.demonstrations {
-            DemonstrationsConfig::Synthetic(_) => Some(None),
+            DemonstrationsConfig::Synthetic(_) | DemonstrationsConfig::Learned { .. } => Some(None),
             DemonstrationsConfig::Recorded(recording) => {
                 reader.poses("demonstrations.recorded.asset", &recording.asset).map(Some)
+            }
+        };
+        let learned = match &self.demonstrations {
+            DemonstrationsConfig::Synthetic(_) | DemonstrationsConfig::Recorded(_) => Some(None),
+            DemonstrationsConfig::Learned { asset } => {
+                let restore = |_: &mut _, file: SkillsFile<SavedCut>| Some(file.skills.clone().restore().map(|_| file));
+                reader.skills("demonstrations.learned.asset", asset, restore).map(Some)
             }
         };
         let cut = ResolvedCut {
@@ -96,6 +106,7 @@ impl ReadScenario for CutScenario {
             shown_food: shown_food?,
             shown_knife: shown_knife?,
             recorded: recorded?,
+            learned: learned?,
             scenario: self,
         };
         if refused.is_empty()
@@ -114,6 +125,18 @@ fn read_knife(reader: &mut Reader<'_>, key: &str, name: &str) -> Option<Knife> {
 }
 
 impl ResolvedCut {
+    /// Name of the file of the food that the demonstration was or is to be shown with.
+    pub(super) fn shown_food_name(&self) -> &str {
+        let [(_, food), _] = self.scenario.demonstrations.names();
+        food.unwrap_or(&self.scenario.food.asset)
+    }
+
+    /// Name of the file of the knife that the demonstration was or is to be shown with.
+    pub(super) fn shown_knife_name(&self) -> &str {
+        let [_, (_, knife)] = self.scenario.demonstrations.names();
+        knife.unwrap_or(&self.scenario.knife.asset)
+    }
+
     /// Checks what needs more than one part of the scenario: that the food can be made, and that all cuts meet it.
     fn check(&self) -> Result<(), FieldError> {
         let scenario = &self.scenario;

@@ -9,13 +9,15 @@ use skills::field::FieldError;
 use skills::spatial::SpatialLimits;
 
 use super::config::CutConfig;
-use super::sections::{BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits};
+use super::sections::{
+    BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig,
+};
 use super::variation::VariationConfig;
 use crate::scenario::{ArmKeys, Header, RecordingConfig, ScenarioFile};
 use crate::tasks::spatial::SpatialRobotConfig;
 
 /// One cutting experiment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CutScenario {
     /// Name, title, description and seed.
@@ -49,6 +51,9 @@ pub struct CutScenario {
     /// Time steps and contact solver.
     #[serde(default)]
     pub engine: EngineConfig,
+    /// How well the food is seen before it is cut; the planner takes it to lie as stated if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub look: Option<LookConfig>,
     /// What each seed's food and board differ in from all of this.
     #[serde(default)]
     pub variation: VariationConfig,
@@ -61,7 +66,7 @@ pub struct CutScenario {
 }
 
 /// The table `task`, whose only key names the kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum CutTable {
     /// Cut a food on a board.
@@ -95,7 +100,7 @@ impl ScenarioFile for CutScenario {
     }
 
     fn refused_values(&self) -> Vec<FieldError> {
-        let parts: [(&str, Result<(), FieldError>); 14] = [
+        let parts: [(&str, Result<(), FieldError>); 15] = [
             ("scenario", self.scenario.validate()),
             ("food", self.food.validate()),
             ("knife", self.knife.validate()),
@@ -107,6 +112,7 @@ impl ScenarioFile for CutScenario {
             ("motion_limits", self.motion_limits.validate()),
             ("mechanics", self.mechanics.validate()),
             ("engine", self.engine.validate()),
+            ("look", self.look.as_ref().map_or(Ok(()), LookConfig::validate)),
             ("variation", self.variation.validate()),
             ("limits", self.limits.validate()),
             ("recording", self.recording.validate()),

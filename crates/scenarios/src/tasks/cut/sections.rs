@@ -11,10 +11,11 @@ use skills::cutting::CutHuman;
 use skills::field::{FieldError, finite, not_negative, positive, within};
 
 /// What is cut.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FoodConfig {
     /// Name of a file in `assets/foods`, without its ending.
+    #[schemars(extend("x-asset" = "foods"))]
     pub asset: String,
     /// Factor on all its lengths.
     #[serde(default = "one")]
@@ -65,10 +66,11 @@ impl FoodConfig {
 }
 
 /// What it is cut with, and how the hand holds it.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct KnifeConfig {
     /// Name of a file in `assets/knives`, without its ending.
+    #[schemars(extend("x-asset" = "knives"))]
     pub asset: String,
     /// Where the middle of the handle is in the gripping frame of the arm, m.
     #[serde(default)]
@@ -103,7 +105,7 @@ impl KnifeConfig {
 }
 
 /// What it is cut on: a cuboid that never moves, its edges along the world's axes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoardConfig {
     /// Middle of its upper side, world frame, m.
@@ -159,24 +161,31 @@ impl BoardConfig {
 }
 
 /// Where the demonstration of one cut comes from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum DemonstrationsConfig {
     /// A synthetic human shows one cut.
     Synthetic(SyntheticConfig),
     /// A recorded cut.
     Recorded(RecordedConfig),
+    /// None: the skill was learned before, by `wield learn`.
+    Learned {
+        /// Name of a file in `assets/skills`, without its ending.
+        asset: String,
+    },
 }
 
 /// One cut of a synthetic human, on the scenario's board.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SyntheticConfig {
     /// Food that the human cuts: a file in `assets/foods`; the scenario's food if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-asset" = "foods"))]
     pub food: Option<String>,
     /// Knife that the human holds: a file in `assets/knives`; the scenario's knife if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-asset" = "knives"))]
     pub knife: Option<String>,
     /// Place of the cut, as a share of the food's length.
     pub at_share: f64,
@@ -185,16 +194,19 @@ pub struct SyntheticConfig {
 }
 
 /// A recorded cut, and where and with what it was shown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RecordedConfig {
-    /// Name of a file in `assets/demonstrations`, without its ending: poses of the knife.
+    /// Name of a file in `assets/demonstrations`, without its ending: poses of the middle of the edge.
+    #[schemars(extend("x-asset" = "demonstrations"))]
     pub asset: String,
     /// Food that was cut: a file in `assets/foods`; the scenario's food if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-asset" = "foods"))]
     pub food: Option<String>,
     /// Knife that was held: a file in `assets/knives`; the scenario's knife if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-asset" = "knives"))]
     pub knife: Option<String>,
     /// Where the origin of the food's frame was on the board, x and y, m.
     pub food_at_m: [f64; 2],
@@ -230,6 +242,7 @@ impl DemonstrationsConfig {
                 ("demonstrations.recorded.food", recorded.food.as_deref()),
                 ("demonstrations.recorded.knife", recorded.knife.as_deref()),
             ],
+            Self::Learned { .. } => [("demonstrations.learned.asset", None); 2],
         }
     }
 
@@ -241,6 +254,7 @@ impl DemonstrationsConfig {
         match self {
             Self::Synthetic(synthetic) => synthetic.validate().map_err(|error| error.within("synthetic")),
             Self::Recorded(recorded) => recorded.validate().map_err(|error| error.within("recorded")),
+            Self::Learned { .. } => Ok(()),
         }
     }
 }
@@ -265,7 +279,7 @@ impl RecordedConfig {
 }
 
 /// How the demonstrated cut is made one of other foods.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SkillKind {
     /// The section constrains the knife: the stroke runs in its plane, and its corridor is certified.
@@ -276,23 +290,57 @@ pub enum SkillKind {
 }
 
 /// How the plan is made and carried out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ExecutionConfig {
     /// What is learned of the demonstration.
     pub skill: SkillKind,
     /// Whether the arm is told what force the food is expected to exert, by the toughness that the scenario states.
     pub expects_cutting_force: bool,
+    /// Whether that force is scaled to how far the knife falls behind: the food may be tougher or softer than stated.
+    pub learns_toughness: bool,
 }
 
 impl Default for ExecutionConfig {
     fn default() -> Self {
-        Self { skill: SkillKind::default(), expects_cutting_force: true }
+        Self { skill: SkillKind::default(), expects_cutting_force: true, learns_toughness: true }
+    }
+}
+
+/// How well the food is seen before it is cut: one look at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct LookConfig {
+    /// Standard deviation of each coordinate of its seen place, m. By default half a millimeter: what remains of a camera's
+    /// calibration to the arm once the noise of its pictures is averaged out. Estimate.
+    pub place_noise_m: f64,
+    /// Standard deviation of its seen angle, rad.
+    pub angle_noise_rad: f64,
+}
+
+impl Default for LookConfig {
+    fn default() -> Self {
+        Self { place_noise_m: 0.0005, angle_noise_rad: 0.01 }
+    }
+}
+
+/// Noise beyond which a look tells nothing.
+const LARGEST_NOISE_M: f64 = 0.02;
+const LARGEST_NOISE_RAD: f64 = 0.5;
+
+impl LookConfig {
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// A [`FieldError`] naming the offending one.
+    pub(super) fn validate(&self) -> Result<(), FieldError> {
+        within("place_noise_m", self.place_noise_m, 0.0, LARGEST_NOISE_M)?;
+        within("angle_noise_rad", self.angle_noise_rad, 0.0, LARGEST_NOISE_RAD)
     }
 }
 
 /// When the task counts as done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Largest root mean square error of the pieces' lengths, m.

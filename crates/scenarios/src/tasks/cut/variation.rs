@@ -9,7 +9,7 @@ use skills::field::{FieldError, within};
 ///
 /// Nothing differs by default. The food's size is seen by the planner, as by anyone who cuts; its toughness, its place to the
 /// millimeter and the friction of the board are not.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct VariationConfig {
     /// Largest difference of all lengths of the food, as a share of the stated ones, all equally likely.

@@ -7,9 +7,12 @@ use skills::field::FieldError;
 
 /// Time steps and contact solver of a pour.
 ///
-/// Grains alone are solved at 2 ms with 4 substeps; the arm's loop runs at 1 kHz. Two substeps in each millisecond give both the
-/// same substep of half a millisecond: contacts stay as stiff.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The steps are those that grains were validated with, 2 ms of 4 substeps. The controller sets its torques once per step, at
+/// 500 Hz, because a torque cannot change within one. Measured of 300 beans into the bowl, processor time against a substep of half
+/// a millisecond in all of them: at 1 ms and 2 substeps 1.3 times real time, the tool within 0.015 mm of its reference; at
+/// 2 ms and 4 substeps 2.2 times and 0.017 mm. What a step costs besides its substeps (contacts sought and warmed up,
+/// rolling resistance, monitor) is spent half as often; contacts stay as stiff, the arm's equations are solved as finely.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PourEngineConfig {
     /// Time step of the physics, s; the control period is a whole multiple of it.
@@ -34,9 +37,9 @@ impl Default for PourEngineConfig {
     fn default() -> Self {
         let grains = GrainEngineConfig::default();
         Self {
-            time_step_s: 0.001,
-            control_period_s: 0.001,
-            substeps: 2,
+            time_step_s: grains.time_step_s,
+            control_period_s: grains.time_step_s,
+            substeps: grains.substeps,
             length_unit_m: grains.length_unit_m,
             contact_frequency_hz: grains.contact_frequency_hz,
             static_contact_frequency_hz: grains.static_contact_frequency_hz,

@@ -1,6 +1,8 @@
 //! How well it was poured: measures out of what became of the grains and of the arm's episode.
 
+use nalgebra::Vector2;
 use sim::pouring::PourResult;
+use skills::pouring::PourReport;
 
 use super::scenario::PourScenario;
 use super::{Planned, PourEpisode};
@@ -16,6 +18,7 @@ pub(super) fn measures(scenario: &PourScenario, planned: &Planned, episode: &Pou
     let poured = &episode.poured;
     let mut measures = amounts(scenario, poured);
     measures.extend(flow(poured));
+    measures.extend(stream(&planned.pour.report, poured));
     measures.extend(lip(planned, poured));
     measures.extend(touches(scenario, poured));
     measures.extend(arm_measures(&episode.episode, &planned.ready.arm.model));
@@ -84,6 +87,12 @@ fn flow(poured: &PourResult) -> Vec<Measure> {
         measure("flow_mean_g_per_s", "flow, mean", Some(poured.mean_flow_kg_per_s * GRAMS), "g/s"),
         measure("flow_peak_g_per_s", "flow over 0.2 s, largest", Some(poured.peak_flow_kg_per_s * GRAMS), "g/s"),
         measure("flow_variation", "flow over 0.2 s, deviation over mean", Some(poured.flow_variation), "1"),
+        measure(
+            "exit_speed_mean_m_per_s",
+            "beans as they leave the cup, mean speed",
+            Some(poured.exit_speed_m_per_s),
+            "m/s",
+        ),
         measure("clogs", "stops of the flow in the tilted cup", Some(poured.clogs as f64), "1"),
         measure("bounce_outs", "beans that left the target again", Some(poured.bounce_outs as f64), "1"),
         measure("rim_hits", "beans that hit the rim", Some(poured.rim_hits as f64), "1"),
@@ -97,6 +106,25 @@ fn flow(poured: &PourResult) -> Vec<Measure> {
         measure("landing_deviation_y_mm", "beans in the mouth's plane, deviation along y", spread(deviation.y), "mm"),
         measure("landing_width_x_mm", "beans in the mouth's plane, width of 95 % along x", spread(width.x), "mm"),
         measure("landing_width_y_mm", "beans in the mouth's plane, width of 95 % along y", spread(width.y), "mm"),
+    ]
+}
+
+/// Where the stream meets the plane of the mouth, along the direction of pouring, and where the plan expects it.
+fn stream(report: &PourReport, poured: &PourResult) -> Vec<Measure> {
+    let known = |value: f64| value.is_finite().then_some(value * MM);
+    let (sin, cos) = report.direction_rad.sin_cos();
+    let landed = (poured.landed > 0).then(|| poured.landing_mean_m.dot(&Vector2::new(cos, sin)) * MM);
+    let measure = |name: &str, label: &str, value: Option<f64>, unit: &str| Measure::reported(name, label, value, unit);
+    vec![
+        measure("landing_along_mm", "middle of the beans in the mouth's plane, along the pour", landed, "mm"),
+        measure("planned_landing_mm", "the same, expected by the plan", known(report.landing_m), "mm"),
+        measure("planned_throw_mm", "throw of the stream, expected by the plan", known(report.throw_m), "mm"),
+        measure(
+            "planned_exit_speed_m_per_s",
+            "beans as they leave the cup, expected by the plan",
+            report.exit_speed_m_per_s.is_finite().then_some(report.exit_speed_m_per_s),
+            "m/s",
+        ),
     ]
 }
 
@@ -131,5 +159,15 @@ fn touches(scenario: &PourScenario, poured: &PourResult) -> Vec<Measure> {
             Limit::AtMost(scenario.limits.cup_touches as f64),
         ),
         Measure::reported("table_touches", "times that the cup touched the table", poured.table_touches as f64, "1"),
+        arm_height(poured.arm_above_table_m),
     ]
+}
+
+/// The arm must not go through the table; an arm whose file states no shapes that collide is not judged by it.
+fn arm_height(least_m: f64) -> Measure {
+    let (name, label) = ("arm_above_table_mm", "lowest point of the arm's links above the table");
+    if least_m.is_infinite() {
+        return Measure::reported(name, label, None, "mm");
+    }
+    Measure::judged(name, label, least_m * MM, "mm", Limit::AtLeast(0.0))
 }

@@ -1,8 +1,10 @@
 //! Pouring: tilt a held cup of beans so that they end in a bowl, a cup, a bottle.
 
 mod config;
+mod demonstrations;
 mod engine;
 mod judge;
+mod learned;
 mod plan;
 mod reference;
 mod scenario;
@@ -16,34 +18,38 @@ use sim::spatial::{
     Drawing, DrawnShape, Episode, HeldTool, Rgba, SceneDescription, SpatialSetup, SpatialWorld, simulate,
     standard_gravity,
 };
-use skills::pouring::{PourDemonstration, PourError, PourPlan, PourSkill};
+use skills::pouring::{PourError, PourPlan, PourSkill, SavedPour};
 
 pub use config::{
-    AmountConfig, GrainsConfig, PourConfig, PourDemonstrations, PourLimits, PourSkillKind, SourceConfig, SyntheticPour,
-    TargetConfig,
+    AmountConfig, GrainsConfig, PourConfig, PourDemonstrations, PourLimits, PourSkillKind, RecordedPour, SourceConfig,
+    SyntheticPour, TargetConfig,
 };
 pub use engine::PourEngineConfig;
-pub use scenario::{PourScenario, PourTable, ResolvedPour};
+pub use scenario::{PourScenario, PourTable, ResolvedPour, ShownVessels};
 pub use variation::{DrawnPour, PourVariation};
 pub use vessel::Vessel;
 
+use self::demonstrations::Shown;
 use self::reference::PourSource;
-use self::vessel::{standing, upright};
 use super::spatial::{Readied, built};
-use super::{StageError, Task, TaskKind, broken};
+use super::{ShownTrial, StageError, Task, TaskKind, broken};
 use crate::outcome::Outcome;
 use crate::pipeline::{Onlooker, Progress};
-use crate::scenario::{ResolvedScenario, load_as};
+use crate::scenario::{KeptSkills, ResolvedScenario, describe_skills, load_as};
+use crate::schema::subschema;
 
 /// The kind.
 pub(crate) const KIND: TaskKind = TaskKind {
     name: "pour",
     summary: "pour beans from a held cup into a container",
     example: ("scenarios/pour_wide_bowl.toml", include_str!("../../../../../scenarios/pour_wide_bowl.toml")),
+    tool_key: Some("source.asset"),
     load: load_as::<PourScenario>,
+    skills: Some(describe_skills::<SavedPour>),
+    schema: subschema::<PourScenario>,
 };
 
-/// Time beyond the plan and its rest after which a run is broken off, s: a flow that is stopped ends earlier, never later.
+/// Time beyond the plan, its rest and a steered tilt after which a run is broken off, s.
 const SPARE_S: f64 = 1.0;
 /// Radius around the mouth that is worth seeing, m.
 const FOCUS_RADIUS_M: f64 = 0.35;
@@ -112,21 +118,30 @@ fn refused(error: PourError) -> StageError {
 }
 
 impl Task for PourTask<'_> {
-    type Shown = PourDemonstration;
+    type Shown = Shown;
     type Skills = PourSkill;
     type Plan = Planned;
     type Episode = PourEpisode;
 
-    fn demonstrations(&self, _progress: Progress<'_>) -> Result<PourDemonstration, StageError> {
-        let PourDemonstrations::Synthetic(shown) = &self.file().demonstrations;
-        let mouth = self.pour.shown_target.mouth(&standing(shown.place_m));
-        let start = upright(shown.start_m, None, &mouth.center_world);
-        let random = stream(self.seed, Purpose::Hand, 0);
-        shown.human.demonstrate(&self.pour.shown_source.cup(), &mouth, &start, random).map_err(refused)
+    fn demonstrations(&self, progress: Progress<'_>) -> Result<Shown, StageError> {
+        demonstrations::obtain(self, progress)
     }
 
-    fn learn(&self, shown: &PourDemonstration) -> Result<PourSkill, StageError> {
-        PourSkill::learn(&self.file().learning, shown).map_err(refused)
+    fn show(
+        &self,
+        count: Option<usize>,
+        progress: Progress<'_>,
+        each: &mut dyn FnMut(ShownTrial) -> Result<(), StageError>,
+    ) -> Result<(), StageError> {
+        demonstrations::show(self, count, progress, each)
+    }
+
+    fn learn(&self, shown: &Shown) -> Result<PourSkill, StageError> {
+        learned::learn(self, shown)
+    }
+
+    fn save(&self, shown: &Shown, skill: &PourSkill) -> Result<KeptSkills, StageError> {
+        learned::kept(self, shown, skill)
     }
 
     fn plan(&self, skill: &PourSkill) -> Result<Planned, StageError> {
@@ -152,6 +167,7 @@ impl Task for PourTask<'_> {
         });
         let Readied { arm, posture, .. } = &planned.ready;
         let (pour, config) = (&planned.pour, file.pour());
+        let steered_s = config.amount.as_ref().map_or(0.0, |amount| amount.approach.longest_s);
         let setup = SpatialSetup {
             plant: &arm.plant,
             model: &arm.model,
@@ -160,14 +176,13 @@ impl Task for PourTask<'_> {
             scene: &scene,
             engine: &engine,
             settle_s: config.settle_s,
-            longest_s: pour.plan.duration_s() + config.settle_s + SPARE_S,
+            longest_s: pour.plan.duration_s() + config.settle_s + SPARE_S + steered_s,
         };
         let mut world = SpatialWorld::new(&engine, &standard_gravity()).map_err(broken)?;
         grains.apply(&mut world.physics.integration_parameters);
         let mut controller = built(&file.controller, &arm.model)?;
         let period_s = engine.control_period_s;
-        let amount = config.amount.as_ref();
-        let mut reference = PourSource::new(pour, process.gauge(), config.feed_forward, amount, period_s)
+        let mut reference = PourSource::new(pour, process.gauge(), config, period_s)
             .map_err(|error| StageError::Input(error.within("task.pour.amount").to_string()))?;
         let episode = simulate(&setup, world, posture, &mut reference, controller.as_mut(), &mut process, observer)
             .map_err(broken)?;
@@ -175,16 +190,11 @@ impl Task for PourTask<'_> {
         Ok(PourEpisode { episode, poured })
     }
 
-    fn judge(
-        &self,
-        _shown: &PourDemonstration,
-        _skill: &PourSkill,
-        planned: &Planned,
-        episode: &PourEpisode,
-    ) -> Outcome {
+    fn judge(&self, shown: &Shown, _skill: &PourSkill, planned: &Planned, episode: &PourEpisode) -> Outcome {
         let measures = judge::measures(self.file(), planned, episode);
         let failures = episode.episode.interruption.iter().cloned().collect();
-        let notes = planned.ready.notes.clone();
+        let mut notes = planned.ready.notes.clone();
+        notes.extend(shown.failed.iter().map(|failed| format!("demonstrations: {failed}")));
         Outcome::judged(self.scenario, self.seed, measures, failures, notes, episode.episode.digest.clone())
     }
 

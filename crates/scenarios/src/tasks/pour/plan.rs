@@ -8,7 +8,7 @@ use super::config::PourSkillKind;
 use super::vessel::{standing, upright};
 use super::{Planned, PourTask, held, refused};
 use crate::tasks::StageError;
-use crate::tasks::spatial::HeldArm;
+use crate::tasks::spatial::{Aim, HeldArm};
 
 /// Distance within which a certificate meets what is sampled, m.
 const RESOLUTION_M: f64 = 5e-4;
@@ -26,6 +26,8 @@ pub(super) fn plan(task: &PourTask<'_>, skill: &PourSkill) -> Result<Planned, St
         fill: Fill {
             height_m: vessels.source.fill_height_m(file.grains.fill, &file.grains.bean),
             stability_rad: file.grains.stability_rad,
+            grain_m: file.grains.bean.diameter_m,
+            rolling_friction: file.grains.bean.rolling_friction,
         },
         mouth,
         direction_rad: None,
@@ -42,7 +44,9 @@ pub(super) fn plan(task: &PourTask<'_>, skill: &PourSkill) -> Result<Planned, St
     };
     let tool = held(vessels);
     let arm = HeldArm::new(&task.scenario.arm, &file.robot, &tool, task.seed)?;
-    let ready = arm.ready(&pour.plan, &file.controller, &file.engine.arm())?;
+    let remedy = "move the container nearer, or turn the cup in the hand (source.grip)";
+    let aim = Aim { task: super::KIND.name, arm: &file.robot.asset, held: "the underside of the cup", remedy };
+    let ready = arm.ready(&pour.plan, &file.controller, &file.engine.arm(), &aim)?;
     Ok(Planned { pour, ready, tool, world_from_target, clearance_m, drawn })
 }
 

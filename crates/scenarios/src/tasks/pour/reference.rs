@@ -1,78 +1,103 @@
-//! Where the cup should be: the plan, the weight that the arm is told of, and the stop once enough is poured.
+//! Where the cup should be: the plan, the weight that the arm is told of, and the steered tilt when an amount is wanted.
 
 use nalgebra::{Isometry3, Vector6};
 use sim::pouring::PourGauge;
 use sim::spatial::{ReferenceSource, SpatialReference};
 use skills::field::FieldError;
-use skills::pouring::{AmountStop, PourCommand, PourPlan};
+use skills::pouring::{AmountControl, PourPlan, TiltCommand, TiltSteering};
 use skills::spatial::{ActionPhase, SpatialMotion, SpatialTrack};
 
-use super::config::AmountConfig;
+use super::config::PourConfig;
 
-/// Follows the plan of a pour, and leaves it to tilt back when the wanted amount is poured.
+/// Follows the plan of a pour; with an amount wanted, steers the tilt from where the flow may begin until it is poured.
 pub(super) struct PourSource<'a> {
     plan: &'a PourPlan,
     gauge: PourGauge,
     feed_forward: bool,
     period_s: f64,
-    stop: Option<AmountStop>,
-    tilting_back: Option<TiltingBack>,
-    /// Action that tilts back, and when it begins and ends, s of the plan.
-    back: (usize, f64),
+    amount: Option<Steered<'a>>,
+    /// Action that pours, action that tilts back, and when the latter ends, s of the plan.
+    pours: usize,
+    tilts_back: (usize, f64),
 }
 
-/// The way back from where the flow was stopped.
+/// A tilt that depends on what has landed.
+struct Steered<'a> {
+    from_s: f64,
+    control: AmountControl,
+    steering: TiltSteering<'a>,
+    back: Option<TiltingBack>,
+}
+
+/// The way back from where the pour was ended.
 struct TiltingBack {
     since_s: f64,
     track: SpatialTrack,
 }
+
+/// Within this of its greatest tilt a cup is tilted as far as it goes, rad.
+const AT_END_RAD: f64 = 0.01;
 
 impl<'a> PourSource<'a> {
     /// Follows `plan`; `gauge` tells what is poured and what is in the cup.
     pub(super) fn new(
         plan: &'a PourPlan,
         gauge: PourGauge,
-        feed_forward: bool,
-        amount: Option<&AmountConfig>,
+        config: &PourConfig,
         period_s: f64,
     ) -> Result<Self, FieldError> {
-        let stop =
-            |amount: &AmountConfig| AmountStop::new(amount.wanted_kg, amount.fall_s, amount.stop_s, amount.smoothing_s);
         let actions = plan.plan.actions();
-        let back = actions.iter().position(|action| action.phase == ActionPhase::Return).unwrap_or(actions.len());
+        let at = |phase: ActionPhase| actions.iter().position(|action| action.phase == phase).unwrap_or(actions.len());
+        let back = at(ActionPhase::Return);
         let ends_s = plan.plan.starts_s().get(back + 1).copied().unwrap_or(plan.plan.duration_s());
-        let stop = amount.map(stop).transpose()?;
-        Ok(Self { plan, gauge, feed_forward, period_s, stop, tilting_back: None, back: (back, ends_s) })
+        let amount = match (&config.amount, plan.steered()) {
+            (Some(amount), Some((from_s, steering))) => {
+                let rate = config.options.pour_rate_rad_per_s;
+                let control = AmountControl::new(amount.wanted_kg, rate, amount.approach.clone())?;
+                Some(Steered { from_s, control, steering, back: None })
+            }
+            _ => None,
+        };
+        let (pours, tilts_back) = (at(ActionPhase::Pour), (back, ends_s));
+        Ok(Self { plan, gauge, feed_forward: config.feed_forward, period_s, amount, pours, tilts_back })
     }
 
-    /// Asks the rule whether to stop, once per control period, while the cup may flow.
-    fn decide(&mut self, time_s: f64) {
-        let Some(stop) = self.stop.as_mut().filter(|_| self.tilting_back.is_none()) else { return };
-        if stop.step(self.period_s, self.gauge.read().collected_kg) == PourCommand::Pour {
-            return;
-        }
-        // before the tilt and once it has ended, the plan does by itself what is right
-        if let Ok(Some(track)) = self.plan.tilt_back(time_s) {
-            self.tilting_back = Some(TiltingBack { since_s: time_s, track });
-        }
-    }
-
-    /// Action, motion, and whether the plan is at its end.
-    fn due(&self, time_s: f64) -> (usize, SpatialMotion, bool) {
+    /// Action, motion, and whether all is done.
+    fn due(&mut self, time_s: f64) -> (usize, SpatialMotion, bool) {
         let plan = &self.plan.plan;
         let on_plan = |time_s: f64| (plan.due_at(time_s).0, plan.at(time_s), time_s >= plan.duration_s());
-        let Some(back) = &self.tilting_back else { return on_plan(time_s) };
+        let Some(steered) = self.amount.as_mut().filter(|steered| time_s >= steered.from_s) else {
+            return on_plan(time_s);
+        };
+        if steered.back.is_none() {
+            steered.advance(time_s, self.period_s, self.gauge.read().collected_kg);
+        }
+        let Some(back) = &steered.back else { return (self.pours, steered.steering.motion(), false) };
         let (since_s, lasts_s) = (time_s - back.since_s, back.track.duration_s());
         if since_s <= lasts_s {
-            return (self.back.0, back.track.at(since_s), false);
+            return (self.tilts_back.0, back.track.at(since_s), false);
         }
-        on_plan(self.back.1 + since_s - lasts_s)
+        on_plan(self.tilts_back.1 + since_s - lasts_s)
+    }
+}
+
+impl Steered<'_> {
+    /// Asks the law once per control period, and does what it says.
+    fn advance(&mut self, time_s: f64, period_s: f64, landed_kg: f64) {
+        let tilt_rad = self.steering.tilt_rad();
+        let at_end = tilt_rad >= self.steering.end_rad() - AT_END_RAD;
+        match self.control.step(period_s, landed_kg, tilt_rad, at_end) {
+            TiltCommand::Rate(rate) => self.steering.step(period_s, rate),
+            TiltCommand::Back => {
+                // a state that is not finite has no way back: the run ends with an error of its own
+                self.back = self.steering.back().ok().map(|track| TiltingBack { since_s: time_s, track });
+            }
+        }
     }
 }
 
 impl ReferenceSource for PourSource<'_> {
     fn next(&mut self, time_s: f64, _world_from_tool: &Isometry3<f64>) -> SpatialReference {
-        self.decide(time_s);
         let (phase, motion, finished) = self.due(time_s);
         let weight = if self.feed_forward { self.gauge.read().weight_wrench } else { Vector6::zeros() };
         SpatialReference {

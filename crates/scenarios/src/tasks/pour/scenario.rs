@@ -4,19 +4,22 @@ use serde::{Deserialize, Serialize};
 use sim::controllers::ControllerConfig;
 use sim::pouring::{MonitorConfig, TableConfig};
 use skills::field::FieldError;
-use skills::pouring::PourLearning;
+use skills::pouring::{PourLearning, SavedPour};
+use skills::primitive::pose::PoseTrajectory;
 
 use super::config::{GrainsConfig, PourConfig, PourDemonstrations, PourLimits, SourceConfig, TargetConfig};
 use super::engine::PourEngineConfig;
 use super::variation::PourVariation;
 use super::vessel::Vessel;
 use super::{KIND, PourTask};
-use crate::scenario::{ArmKeys, Header, ReadScenario, Reader, RecordingConfig, ResolvedScenario, ScenarioFile};
+use crate::scenario::{
+    ArmKeys, Header, ReadScenario, Reader, RecordingConfig, ResolvedScenario, ScenarioFile, SkillsFile,
+};
 use crate::tasks::spatial::SpatialRobotConfig;
 use crate::tasks::{ResolvedTask, Runnable, TaskPart, written};
 
 /// One pouring experiment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PourScenario {
     /// Name, title, description and seed.
@@ -59,7 +62,7 @@ pub struct PourScenario {
 }
 
 /// The table `task`, whose only key names the kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PourTable {
     /// Pour grains from the held cup into a container.
@@ -122,30 +125,87 @@ pub struct ResolvedPour {
     pub source: Vessel,
     /// What is poured into.
     pub target: Vessel,
-    /// What the skill was shown with.
-    pub shown_source: Vessel,
-    /// What it was shown to be poured into.
-    pub shown_target: Vessel,
+    /// What the skill was or is to be shown with; `None` if it was learned before.
+    pub shown: Option<ShownVessels>,
+    /// The recorded poses of the cup, if the scenario names such.
+    pub recorded: Option<PoseTrajectory>,
+    /// The skill that the scenario names instead of a demonstration.
+    pub learned: Option<SkillsFile<SavedPour>>,
+}
+
+/// Containers of a demonstration.
+#[derive(Clone, Debug)]
+pub struct ShownVessels {
+    /// What was poured from.
+    pub source: Vessel,
+    /// What was poured into.
+    pub target: Vessel,
+}
+
+impl ResolvedPour {
+    /// Name of the file of the cup that the demonstration was or is to be shown with.
+    pub(super) fn shown_source_name(&self) -> &str {
+        let own = match &self.scenario.demonstrations {
+            PourDemonstrations::Synthetic(shown) => shown.source.as_deref(),
+            PourDemonstrations::Recorded(shown) => shown.source.as_deref(),
+            PourDemonstrations::Learned { .. } => None,
+        };
+        own.unwrap_or(&self.scenario.source.asset)
+    }
 }
 
 impl ReadScenario for PourScenario {
     fn resolve(self, reader: &mut Reader<'_>, _refused: &[FieldError]) -> Option<ResolvedTask> {
         let source: Option<Vessel> = reader.asset("source.asset", &self.source.asset);
         let target = reader.asset("target.asset", &self.target.asset);
-        let PourDemonstrations::Synthetic(shown) = &self.demonstrations;
-        let shown_source = match &shown.source {
-            Some(name) => reader.asset("demonstrations.synthetic.source", name),
-            None => source.clone(),
-        };
-        let shown_target = reader.asset("demonstrations.synthetic.target", &shown.target);
+        let shown = Shown::read(reader, &self.demonstrations, source.as_ref());
         let pour = ResolvedPour {
             source: source?,
             target: target?,
-            shown_source: shown_source?,
-            shown_target: shown_target?,
+            shown: shown.vessels?,
+            recorded: shown.recorded?,
+            learned: shown.learned?,
             scenario: self,
         };
         Some(ResolvedTask::Pour(Box::new(pour)))
+    }
+}
+
+/// What a scenario names of its demonstration, as far as it could be read.
+struct Shown {
+    vessels: Option<Option<ShownVessels>>,
+    recorded: Option<Option<PoseTrajectory>>,
+    learned: Option<Option<SkillsFile<SavedPour>>>,
+}
+
+impl Shown {
+    fn read(reader: &mut Reader<'_>, demonstrations: &PourDemonstrations, own: Option<&Vessel>) -> Self {
+        let mut vessels = |part: &str, source: Option<&str>, target: &str| {
+            let source = match source {
+                Some(name) => reader.asset(&format!("demonstrations.{part}.source"), name),
+                None => own.cloned(),
+            };
+            let target = reader.asset(&format!("demonstrations.{part}.target"), target);
+            Some(Some(ShownVessels { source: source?, target: target? }))
+        };
+        match demonstrations {
+            PourDemonstrations::Synthetic(shown) => Self {
+                vessels: vessels("synthetic", shown.source.as_deref(), &shown.target),
+                recorded: Some(None),
+                learned: Some(None),
+            },
+            PourDemonstrations::Recorded(shown) => Self {
+                vessels: vessels("recorded", shown.source.as_deref(), &shown.target),
+                recorded: reader.poses("demonstrations.recorded.asset", &shown.asset).map(Some),
+                learned: Some(None),
+            },
+            PourDemonstrations::Learned { asset } => {
+                let restore =
+                    |_: &mut _, file: SkillsFile<SavedPour>| Some(file.skills.clone().restore().map(|_| file));
+                let learned = reader.skills("demonstrations.learned.asset", asset, restore).map(Some);
+                Self { vessels: Some(None), recorded: Some(None), learned }
+            }
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::outcome::Measure;
 /// How far a run may differ from the scenario. Everything is uniform about the stated value; nothing differs by default.
 ///
 /// Planner and controller believe what the scenario states, but for the place of the target, which is seen.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PourVariation {
     /// Diameter of the grains: largest difference, as a share of the stated one.

@@ -50,6 +50,7 @@ impl Vessel {
                 Some(_) => container.lip.point_in_container.x - radius_m,
                 None => 0.0,
             },
+            spout_width_m: container.lip.width_m,
         }
     }
 

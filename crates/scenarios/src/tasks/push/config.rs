@@ -9,7 +9,7 @@ use skills::tool_use::Orientation;
 use skills::transfer::{Side, TransferConfig};
 
 /// What is to be pushed where.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PushConfig {
     /// Where the object starts, world frame, m.
@@ -43,7 +43,7 @@ pub struct PushConfig {
 }
 
 /// How a skill is transferred to the scenario's tool.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct TransferTask {
     /// Angle at which the tool is held, rad.

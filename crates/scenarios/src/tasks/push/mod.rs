@@ -5,6 +5,7 @@ mod check;
 mod config;
 mod demonstrations;
 mod judge;
+mod learned;
 mod recorded;
 mod resolved;
 mod scenario;
@@ -23,7 +24,7 @@ use sim::planar::{
 use sim::random::{Purpose, stream};
 use sim::sensing::Camera;
 use skills::plan::{Action, Plan, Track};
-use skills::tool_use::{LearningReport, PushProblem, SkillLibrary};
+use skills::tool_use::{LearningReport, PushProblem, SavedLibrary, SkillLibrary};
 use skills::transfer::Transfer;
 
 pub(crate) use carried_out::{CarriedOut, carry_out};
@@ -40,14 +41,18 @@ use varying::Actual;
 use super::{ShownTrial, StageError, Task, TaskKind, broken, infeasible};
 use crate::outcome::Outcome;
 use crate::pipeline::{Onlooker, Progress};
-use crate::scenario::{Origin, ResolvedScenario, SkillsFile, load_as};
+use crate::scenario::{KeptSkills, Origin, ResolvedScenario, SkillsFile, describe_skills, load_as};
+use crate::schema::subschema;
 
 /// The kind.
 pub(crate) const KIND: TaskKind = TaskKind {
     name: "push",
     summary: "push an object over a table to a goal, past obstacles, with a tool",
     example: ("scenarios/push_stick.toml", include_str!("../../../../../scenarios/push_stick.toml")),
+    tool_key: Some("tool.asset"),
     load: load_as::<PushScenario>,
+    skills: Some(describe_skills::<SavedLibrary>),
+    schema: subschema::<PushScenario>,
 };
 
 /// Time between two motions of a plan, s.
@@ -229,7 +234,7 @@ impl Task for PushTask<'_> {
             .map_err(|error| StageError::Infeasible(error.to_string()))
     }
 
-    fn save(&self, skills: &Learned) -> Result<SkillsFile, StageError> {
+    fn save(&self, _shown: &Shown, skills: &Learned) -> Result<KeptSkills, StageError> {
         let tool = &self.push.demonstration_tool;
         let origin = match &self.push.learned {
             Some(file) => file.learned.clone(),
@@ -240,7 +245,7 @@ impl Task for PushTask<'_> {
                 demonstrations: skills.report.used.clone(),
             },
         };
-        Ok(SkillsFile::new(origin, skills.library.saved(tool)))
+        SkillsFile::new(origin, skills.library.saved(tool)).kept().map_err(StageError::Broken)
     }
 
     fn plan(&self, skills: &Learned) -> Result<Checked, StageError> {

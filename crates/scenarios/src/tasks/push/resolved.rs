@@ -3,6 +3,7 @@
 use skills::demonstration::Demonstration;
 use skills::field::FieldError;
 use skills::tool::Tool;
+use skills::tool_use::SavedLibrary;
 
 use super::check::{check_places, check_surfaces};
 use super::{DemonstrationsConfig, KIND, PushScenario, PushTask, SyntheticConfig};
@@ -21,7 +22,7 @@ pub struct ResolvedPush {
     /// The recorded demonstrations that the scenario names, in its order.
     pub recorded: Vec<Demonstration>,
     /// The skills that the scenario names instead of demonstrations.
-    pub learned: Option<SkillsFile>,
+    pub learned: Option<SkillsFile<SavedLibrary>>,
 }
 
 impl ResolvedPush {
@@ -87,7 +88,7 @@ impl ReadScenario for PushScenario {
 struct Shown {
     tool: Option<Tool>,
     recorded: Option<Vec<Demonstration>>,
-    learned: Option<Option<SkillsFile>>,
+    learned: Option<Option<SkillsFile<SavedLibrary>>>,
 }
 
 impl Shown {
@@ -96,7 +97,12 @@ impl Shown {
             DemonstrationsConfig::Synthetic(synthetic) => ("demonstrations.synthetic.tool", &synthetic.tool, &[]),
             DemonstrationsConfig::Recorded { assets, tool } => ("demonstrations.recorded.tool", tool, assets),
             DemonstrationsConfig::Learned { asset } => {
-                let read = reader.skills("demonstrations.learned.asset", asset);
+                let key = "demonstrations.learned.asset";
+                let read = reader.skills(key, asset, |reader, file: SkillsFile<SavedLibrary>| {
+                    let tool: Tool = reader.asset(key, &file.learned.tool)?;
+                    let restored = file.skills.clone().restore(&tool);
+                    Some(restored.map(|_| (tool, file)))
+                });
                 let (tool, learned) = read.map_or((None, None), |(tool, file)| (Some(tool), Some(Some(file))));
                 return Self { tool, recorded: Some(Vec::new()), learned };
             }

@@ -13,7 +13,7 @@ use super::variation::VariationConfig;
 use crate::scenario::{ArmKeys, Header, RecordingConfig, RobotConfig, ScenarioFile, ToolConfig};
 
 /// One pushing experiment: what is there, what is to be done, how it is learned, carried out and judged.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PushScenario {
     /// Name, title, description and seed.
@@ -56,7 +56,7 @@ pub struct PushScenario {
 }
 
 /// The table `task`, whose only key names the kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum PushTable {
     /// Push an object over a table to a goal.

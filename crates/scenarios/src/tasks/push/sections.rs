@@ -8,7 +8,7 @@ use skills::pushing::{HoldRenewalConfig, SteeringConfig};
 use crate::tasks::MOST_DEMONSTRATIONS;
 
 /// Where the demonstrations come from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum DemonstrationsConfig {
     /// A synthetic human drives a tool in the simulated world.
@@ -16,20 +16,23 @@ pub enum DemonstrationsConfig {
     /// Recorded demonstrations, one CSV file each.
     Recorded {
         /// Names of files in `assets/demonstrations`, without their ending.
+        #[schemars(extend("x-asset" = "demonstrations"))]
         assets: Vec<String>,
         /// Tool that was used: a file in `assets/tools`; the scenario's tool if absent.
         #[serde(default)]
+        #[schemars(extend("x-asset" = "tools"))]
         tool: Option<String>,
     },
     /// None: the skills were learned before, by `wield learn`.
     Learned {
         /// Name of a file in `assets/skills`, without its ending.
+        #[schemars(extend("x-asset" = "skills"))]
         asset: String,
     },
 }
 
 /// Demonstrations of a synthetic human.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SyntheticConfig {
     /// Number of successful demonstrations wanted.
@@ -43,6 +46,7 @@ pub struct SyntheticConfig {
     pub surfaces: Vec<String>,
     /// Tool that the human uses: a file in `assets/tools`; the scenario's tool if absent.
     #[serde(default)]
+    #[schemars(extend("x-asset" = "tools"))]
     pub tool: Option<String>,
     /// The human.
     #[serde(default)]
@@ -50,7 +54,7 @@ pub struct SyntheticConfig {
 }
 
 /// How the plan is carried out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ExecutionConfig {
     /// Whether the seen object moves the reference.
@@ -87,7 +91,7 @@ impl ExecutionConfig {
 }
 
 /// Whether the seen object moves the reference.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ExecutionMode {
     /// The plan is followed whatever the object does.
@@ -98,7 +102,7 @@ pub enum ExecutionMode {
 }
 
 /// When the task counts as done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Largest distance of the object from its goal at the end, m.

@@ -8,7 +8,7 @@ use skills::field::{FieldError, within};
 ///
 /// Everything is uniform about the stated value; nothing differs by default. Demonstrations are shown in the world as
 /// stated: they were made before.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct VariationConfig {
     /// Friction between object and table: largest difference, as a share of the stated one.

@@ -15,7 +15,7 @@ const SHORTEST_S: f64 = 0.05;
 const LONGEST_MOVE_M: f64 = 100.0;
 
 /// Bring the tool through waypoints, and hold it there against forces.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachConfig {
     /// Places to go to, in their order; none to hold the start.
@@ -34,7 +34,7 @@ fn default_hold_s() -> f64 {
 }
 
 /// A pose of the tool to go to.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Waypoint {
     /// Way from the waypoint before (from the start for the first), world axes, m.
@@ -47,7 +47,7 @@ pub struct Waypoint {
 }
 
 /// A force that pushes the tool for a while.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disturbance {
     /// Force on the origin of the tool's frame, world axes, N.
@@ -65,7 +65,7 @@ pub struct Disturbance {
 }
 
 /// When reaching counts as done.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ReachLimits {
     /// Largest distance of the tool from its goal at the end, m.

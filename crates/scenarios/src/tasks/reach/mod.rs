@@ -13,18 +13,22 @@ pub use config::{Disturbance, ReachConfig, ReachLimits, Waypoint};
 pub use scenario::{ReachScenario, ReachTable, ResolvedReach};
 
 use self::pushed::{Pushed, WithKnownForces};
-use super::spatial::{HeldArm, Readied, built};
+use super::spatial::{Aim, HeldArm, Readied, built};
 use super::{StageError, Task, TaskKind, broken};
 use crate::outcome::Outcome;
 use crate::pipeline::{Onlooker, Progress};
 use crate::scenario::{ResolvedScenario, load_as};
+use crate::schema::subschema;
 
 /// The kind.
 pub(crate) const KIND: TaskKind = TaskKind {
     name: "reach",
     summary: "bring the tool through waypoints in space, and hold it there against forces",
     example: ("scenarios/reach_panda.toml", include_str!("../../../../../scenarios/reach_panda.toml")),
+    tool_key: None,
     load: load_as::<ReachScenario>,
+    skills: None,
+    schema: subschema::<ReachScenario>,
 };
 
 /// Radius around the tool's way that is worth seeing, m: the arm.
@@ -89,7 +93,9 @@ impl Task for ReachTask<'_> {
         let robot = &self.reach.robot;
         let arm = HeldArm::new(&self.scenario.arm, robot, &HeldTool::none(), self.seed)?;
         let plan = self.way(arm.tool_at_rest()?)?;
-        let ready = arm.ready(&plan, &self.reach.controller, &self.reach.engine)?;
+        let remedy = "shorten move_m or turn_rad of that waypoint or of one before it";
+        let aim = Aim { task: KIND.name, arm: &robot.asset, held: "the tool", remedy };
+        let ready = arm.ready(&plan, &self.reach.controller, &self.reach.engine, &aim)?;
         Ok(Planned { plan, ready })
     }
 

@@ -12,7 +12,7 @@ use crate::tasks::spatial::SpatialRobotConfig;
 use crate::tasks::{ResolvedTask, Runnable, TaskPart, written};
 
 /// One reaching experiment.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachScenario {
     /// Name, title, description and seed.
@@ -35,7 +35,7 @@ pub struct ReachScenario {
 }
 
 /// The table `task`, whose only key names the kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ReachTable {
     /// Bring the tool through waypoints and hold it there.

@@ -2,11 +2,12 @@
 
 use nalgebra::{DVector, Isometry3, Point3};
 use robot::Manipulator;
+use sim::SimError;
 use sim::controllers::{Controller, ControllerConfig};
 use sim::random::{Purpose, stream};
 use sim::spatial::{
-    ArmDescription, Drawing, EngineConfig, HeldTool, LinkDrawing, ReferenceSource, Rgba, SceneDescription,
-    arm_with_tool, check_reach_along, standard_gravity,
+    ArmDescription, Drawing, EngineConfig, HeldTool, LinkDrawing, Rgba, SceneDescription, arm_with_tool,
+    check_reach_along, out_of_reach, standard_gravity,
 };
 use skills::field::FieldError;
 use skills::spatial::SpatialPlan;
@@ -23,6 +24,21 @@ const DRAWING_STEP_S: f64 = 0.02;
 const STABILITY_CHECK_S: f64 = 0.1;
 /// Name of the frame of the held tool in the arm's model.
 const TOOL: &str = "tool";
+
+/// Distance from which on a place is told to be out of reach; below it, it is the turn that does not fit, m.
+const SHOWN_M: f64 = 5e-4;
+
+/// Words for what a plan aims at.
+pub(crate) struct Aim<'a> {
+    /// Kind of the task.
+    pub task: &'a str,
+    /// Name of the arm.
+    pub arm: &'a str,
+    /// What is held: "the knife".
+    pub held: &'a str,
+    /// What brings a place within reach.
+    pub remedy: &'a str,
+}
 
 /// An arm with a tool in its hand.
 pub(crate) struct HeldArm {
@@ -66,26 +82,18 @@ impl HeldArm {
     }
 
     /// Checks that the arm can carry out `plan` and that its control loop is stable, and takes the posture of the start.
+    ///
+    /// Of a plan that the arm cannot follow, the first place that it cannot take at all is told, if there is one: `aim` has the words.
     pub fn ready(
         self,
         plan: &SpatialPlan,
         controller: &ControllerConfig,
         engine: &EngineConfig,
+        aim: &Aim<'_>,
     ) -> Result<Readied, StageError> {
-        self.ready_for(plan.duration_s(), &mut PlanSource::new(plan), controller, engine)
-    }
-
-    /// The same for a reference that is not simply a plan.
-    pub fn ready_for(
-        self,
-        duration_s: f64,
-        source: &mut dyn ReferenceSource,
-        controller: &ControllerConfig,
-        engine: &EngineConfig,
-    ) -> Result<Readied, StageError> {
-        let controller = built(controller, &self.model)?;
+        let (controller, period_s) =
+            (built(controller, &self.model)?, engine.steps_per_period() as f64 * engine.time_step_s);
         let mut workspace = self.model.workspace();
-        let period_s = engine.steps_per_period() as f64 * engine.time_step_s;
         let mut next_s = 0.0;
         let mut stable = |time_s: f64, q: &DVector<f64>| {
             if time_s < next_s {
@@ -98,11 +106,37 @@ impl HeldArm {
                 FieldError { found, ..error.within("controller") }.into()
             })
         };
-        let posture =
-            check_reach_along(&self.model, &self.near, duration_s, source, &mut stable).map_err(infeasible)?;
+        let source = &mut PlanSource::new(plan);
+        let posture = match check_reach_along(&self.model, &self.near, plan.duration_s(), source, &mut stable) {
+            Ok(posture) => posture,
+            Err(error @ SimError::Unreachable { .. }) => {
+                return Err(self.unreachable(plan, aim).unwrap_or(infeasible(error)));
+            }
+            Err(error) => return Err(infeasible(error)),
+        };
         let tool = self.model.frame(TOOL).map_err(|error| StageError::Broken(error.to_string()))?;
         let notes = controller.describe(&mut workspace, &posture, tool, period_s);
         Ok(Readied { arm: self, posture, notes })
+    }
+
+    /// The first place at which an action of the plan begins or ends and that the arm cannot take, in words; `None` if it can take
+    /// all of them, and it is the way between them that is at fault.
+    fn unreachable(&self, plan: &SpatialPlan, aim: &Aim<'_>) -> Option<StageError> {
+        let first = plan.actions().first().map(|action| ("begin", action, action.track.start()));
+        let ends = plan.actions().iter().map(|action| ("end", action, action.track.end()));
+        first.into_iter().chain(ends).find_map(|(side, action, motion)| {
+            let missing = out_of_reach(&self.model, &self.near, &motion.pose).ok()??;
+            let place = motion.pose.translation.vector;
+            let how_far = if missing.distance_m >= SHOWN_M {
+                format!("{:.3} m out of reach of", missing.distance_m)
+            } else {
+                format!("to be turned by {:.3} rad more than fits", missing.angle_rad)
+            };
+            Some(StageError::Infeasible(format!(
+                "plan {}: {} at the {side} of `{}`, ({:.3}, {:.3}, {:.3}) m, is {how_far} `{}` ({}); {}",
+                aim.task, aim.held, action.name, place.x, place.y, place.z, aim.arm, missing.reason, aim.remedy
+            )))
+        })
     }
 
     /// What onlookers are told of the arm.

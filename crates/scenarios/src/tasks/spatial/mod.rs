@@ -3,9 +3,13 @@
 mod following;
 mod held_arm;
 mod measures;
+mod recorded;
 mod robot;
+mod trials;
 
 pub(crate) use following::PlanSource;
-pub(crate) use held_arm::{HeldArm, Readied, built};
+pub(crate) use held_arm::{Aim, HeldArm, Readied, built};
 pub(crate) use measures::arm_measures;
+pub(crate) use recorded::{is_poses, read as read_poses, write as write_poses};
 pub use robot::SpatialRobotConfig;
+pub(crate) use trials::{Trial, run_trials};

@@ -16,10 +16,11 @@ const FARTHEST_BASE_M: f64 = 1e6;
 const POSE_COORDINATES: usize = 6;
 
 /// The arm that holds the tool, anywhere in space.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpatialRobotConfig {
     /// Name of a URDF file in `assets/robots`, without its ending.
+    #[schemars(extend("x-asset" = "robots"))]
     pub asset: String,
     /// Position of the arm's base in the world, m.
     #[serde(default)]

@@ -234,14 +234,15 @@ fn attributes(style: &Style) -> String {
     text
 }
 
-fn escaped(text: &str) -> String {
+/// A text that cannot break the markup around it.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduction::plot::line;
+    use crate::plot::line;
 
     #[test]
     fn words_cannot_break_the_markup() {

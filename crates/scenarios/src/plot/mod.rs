@@ -5,11 +5,13 @@
 mod axis;
 mod chart;
 mod layout;
+mod rows;
 mod style;
 mod svg;
 
 pub use chart::Chart;
+pub use rows::{RowChart, RowMark};
 pub use style::{
     BLACK, BLUE, DASHED, DOTTED, GRAY, GREEN, LIGHT, ORANGE, PURPLE, RED, SKY, Style, fill, line, outlined,
 };
-pub use svg::figure;
+pub use svg::{escaped, figure};

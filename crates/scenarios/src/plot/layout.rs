@@ -94,7 +94,7 @@ fn legend_lines(chart: &Chart, width: f64) -> Vec<Vec<&(String, Style, Sample)>>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reproduction::plot::{BLACK, line};
+    use crate::plot::{BLACK, line};
 
     fn chart() -> Chart {
         let mut chart = Chart::map("a map", "x (cm)", "y (cm)");
