@@ -451,3 +451,14 @@ fn ctrl_c_twice_stops_at_once_and_so_does_sigterm() {
     assert_eq!(child.wait().unwrap().signal(), Some(SIGTERM), "shells and engines see 143");
     assert_eq!(rows(&folder, "runs/force"), Vec::<Value>::new());
 }
+
+#[test]
+fn a_viewer_that_is_absent_changes_no_row() {
+    let folder = with_sweep();
+    assert_code(&wield(&folder, &["sweep", "force.toml", "--out", "plain", "--quiet"]), 0);
+    let nobody = "rerun+http://127.0.0.1:1/proxy";
+    assert_code(&wield(&folder, &["sweep", "force.toml", "--out", "shown", "--quiet", "--connect", nobody]), 0);
+    let table = |out: &str| fs::read(folder.path().join(out).join("results.parquet")).unwrap();
+    assert_eq!(rows(&folder, "shown"), rows(&folder, "plain"));
+    assert_eq!(table("shown"), table("plain"));
+}

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::campaign::{fail, open_told};
 use super::interrupt;
+use super::observe::{self, Destination};
 use super::panics;
 use super::plan::{campaign_assets, prepare};
 use super::progress::SweepProgress;
@@ -56,6 +57,7 @@ Examples:
   wield sweep runs/push_friction                     what is left of it
   wield sweep runs/push_friction --shard 0/4         every fourth run
   wield sweep scenarios/sweeps/push_friction.toml --min-success 0.9 --json | jq .all
+  wield sweep runs/push_friction --view              one run at a time is shown in a viewer
   wield run runs/push_friction --row 7               one of its runs, with a recording
 
 Exit codes: 0 all runs were made, whether they kept their limits or not; 1 fewer than --min-success of them did; 2 bad input
@@ -85,6 +87,12 @@ pub struct SweepArguments {
     /// Format of the table of results: parquet, csv, jsonl; several may be named
     #[arg(long, value_name = "FORMAT", default_value = "parquet")]
     format: Vec<TableFormat>,
+    /// Stream the run that is being made to a running viewer
+    #[arg(long, value_name = "URL")]
+    connect: Option<String>,
+    /// Start a viewer and stream the run that is being made to it
+    #[arg(long)]
+    view: bool,
     /// Print the summary as JSON instead of tables
     #[arg(long)]
     json: bool,
@@ -102,12 +110,26 @@ pub fn execute(arguments: &SweepArguments, assets: Option<&Path>, pipeline: Pipe
             return Exit::BadInput;
         }
     };
+    if let Err(reason) = check_viewer(arguments) {
+        say_error(&reason);
+        return Exit::BadInput;
+    }
     let (folder, manifest) = match campaign(arguments, assets) {
         Ok(found) => found,
         Err(exit) => return exit,
     };
     let assets = campaign_assets(assets, &manifest);
-    Job { arguments, folder, manifest, assets, shard, pipeline }.run()
+    Job { arguments, folder, manifest, assets, shard, pipeline, viewer_failed: AtomicBool::new(false) }.run()
+}
+
+/// Refuses what this build cannot show.
+fn check_viewer(arguments: &SweepArguments) -> Result<(), String> {
+    if !observe::AVAILABLE && (arguments.view || arguments.connect.is_some()) {
+        return Err("this wield was built without its recorder; build it with the feature `recording`, or leave out \
+                    --connect and --view"
+            .into());
+    }
+    Ok(())
 }
 
 /// The campaign that the arguments name, planned if they name a sweep file.
@@ -139,6 +161,8 @@ struct Job<'a> {
     assets: Assets,
     shard: Shard,
     pipeline: Pipeline,
+    /// Set once a viewer could not be reached or started.
+    viewer_failed: AtomicBool,
 }
 
 impl Job<'_> {
@@ -163,7 +187,7 @@ impl Job<'_> {
     }
 
     /// Makes the runs that are left.
-    fn make(&self, stop: &std::sync::atomic::AtomicBool) -> Result<Summary, FolderError> {
+    fn make(&self, stop: &AtomicBool) -> Result<Summary, FolderError> {
         let mine = self.manifest.runs.iter().filter(|run| self.shard.holds(run.index)).count();
         let done = self.folder.done(&self.manifest)?;
         let before = (0_u64..).zip(&done).filter(|(index, done)| **done && self.shard.holds(*index)).count();
@@ -180,8 +204,13 @@ impl Job<'_> {
                 *last = Instant::now();
             }
         };
+        let watching = Mutex::new(());
         let run = |scenario: &ResolvedScenario, seed: u64| -> Attempt {
-            panics::catch(|| (self.pipeline)(scenario, seed, &mut (), &|_, _| {}))
+            // one run at a time is shown; the next one that begins after it is shown next
+            match watching.try_lock() {
+                Ok(_shown) if self.is_live() => self.shown_run(scenario, seed),
+                _ => panics::catch(|| (self.pipeline)(scenario, seed, &mut (), &|_, _| {})),
+            }
         };
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
         let threads = self.arguments.threads.map_or_else(cores, usize::from);
@@ -189,6 +218,33 @@ impl Job<'_> {
         let made = make_runs(&self.folder, &self.manifest, &execution);
         progress.finish();
         made
+    }
+
+    /// Whether runs are shown in a viewer while they are made.
+    fn is_live(&self) -> bool {
+        let wanted = self.arguments.view || self.arguments.connect.is_some();
+        wanted && !self.viewer_failed.load(Ordering::Relaxed)
+    }
+
+    /// Makes a run that a viewer sees; a viewer that is absent does not change it.
+    fn shown_run(&self, scenario: &ResolvedScenario, seed: u64) -> Attempt {
+        let SweepArguments { connect, view, .. } = self.arguments;
+        let destination = Destination { connect: connect.clone(), view: *view, ..Destination::default() };
+        let watched = panics::catch(|| {
+            observe::watch(&destination, scenario, seed, |observer| {
+                (self.pipeline)(scenario, seed, observer, &|_, _| {})
+            })
+        })?;
+        match watched {
+            Ok(watched) => Ok(watched.result),
+            // the recorder could not start, so nothing was run: a viewer decides about no result
+            Err(reason) => {
+                if !self.viewer_failed.swap(true, Ordering::Relaxed) {
+                    say_aside(&format!("warning: runs are not shown: {reason}"));
+                }
+                panics::catch(|| (self.pipeline)(scenario, seed, &mut (), &|_, _| {}))
+            }
+        }
     }
 
     /// Says why no further runs can be made, and that the earlier ones are kept.
