@@ -12,6 +12,9 @@ use std::fs;
 use std::path::Path;
 use std::process::Output;
 
+use arrow_array::cast::AsArray as _;
+use arrow_array::types::Float64Type;
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use program::{PROJECT, place, replaced, shipped};
 use scenarios::campaign::{JournalReader, Row};
 use scenarios::comparison::{Comparison, Verdict};
@@ -78,12 +81,20 @@ fn a_comparison_is_written_whole_and_does_not_depend_on_threads() {
     for foreign in ["<script", "src=", "href=", "@import", "url(", "NaN", "inf"] {
         assert!(!page.contains(foreign), "{foreign:?} is in the page");
     }
-    agrees_with_the_rows(&folder.path().join("one"));
+    agrees_with_the_table(&folder.path().join("one"));
     goes_on_where_it_stopped(folder.path());
 }
 
-/// Recomputes what `comparison.json` says from the rows of the journals, naively.
-fn agrees_with_the_rows(folder: &Path) {
+/// A column of numbers of `results.parquet`, as any program reads it.
+fn table_column(folder: &Path, name: &str) -> Vec<f64> {
+    let file = fs::File::open(folder.join("results.parquet")).unwrap();
+    let reader = ParquetRecordBatchReaderBuilder::try_new(file).unwrap().build().unwrap();
+    let batches = reader.map(|batch| batch.unwrap().column_by_name(name).unwrap().clone());
+    batches.flat_map(|column| column.as_primitive::<Float64Type>().values().to_vec()).collect()
+}
+
+/// Recomputes what `comparison.json` says from the table, naively.
+fn agrees_with_the_table(folder: &Path) {
     let (found, rows) = (comparison(folder), rows(folder));
     assert_eq!((found.seeds.as_slice(), rows.len()), ([1, 2, 3, 4].as_slice(), 12));
     let groups: Vec<&[Row]> = rows.chunks(4).collect();
@@ -93,10 +104,12 @@ fn agrees_with_the_rows(folder: &Path) {
     }
     assert!(found.measures.iter().any(|measure| measure.name == "goal_error_mm"));
     for measure in &found.measures {
-        let column = |rows: &[Row]| rows.iter().map(|row| row.value(&measure.name).unwrap()).collect::<Vec<_>>();
-        let first = column(groups[0]);
-        for (spread, rows) in measure.variants.iter().zip(&groups) {
-            let mut values = column(rows);
+        let told = table_column(folder, &measure.name);
+        assert_eq!(told, rows.iter().map(|row| row.value(&measure.name).unwrap()).collect::<Vec<_>>());
+        let columns: Vec<&[f64]> = told.chunks(4).collect();
+        let first = columns[0];
+        for (spread, column) in measure.variants.iter().zip(&columns) {
+            let mut values = column.to_vec();
             let location = spread.location.unwrap();
             assert_eq!(spread.values.iter().map(|value| value.unwrap()).collect::<Vec<_>>(), values);
             values.sort_by(f64::total_cmp);
@@ -106,8 +119,8 @@ fn agrees_with_the_rows(folder: &Path) {
             assert_eq!(location.median_interval_95, None);
         }
         for difference in &measure.differences {
-            let this = column(groups[difference.variant]);
-            let values: Vec<f64> = this.iter().zip(&first).map(|(this, first)| this - first).collect();
+            let this = columns[difference.variant];
+            let values: Vec<f64> = this.iter().zip(first).map(|(this, first)| this - first).collect();
             let test = difference.test.unwrap();
             assert!((test.estimate - hodges_lehmann(&values)).abs() < ROUNDING, "{}", measure.name);
             assert!((test.p - signed_rank_p(&values)).abs() < ROUNDING, "{}", measure.name);
