@@ -9,7 +9,7 @@ use std::path::Path;
 
 use program::{PROJECT, project, wield};
 
-/// A paddle is to bring a disc along a straight way: how wide must it be. Short, since what is tested is the way round.
+/// An L for the transfer: how long must its arm be. Few candidates and seeds, since what is tested is the way round.
 const DESIGN: &str = "\
 [design]
 name = \"own\"
