@@ -85,7 +85,7 @@ pub enum RobotError {
     #[error("read urdf: found no link; expected at least the base link; add a <link>")]
     NoLinks,
     /// More than one link has no parent joint.
-    #[error("read urdf: found {} root links ({}); expected one base; join the others to the tree with fixed joints", roots.len(), roots.join(", "))]
+    #[error("read urdf: {} root links ({}); expected one base; join the others to the tree with fixed joints", roots.len(), roots.join(", "))]
     SeveralRoots {
         /// Names of the links without a parent joint.
         roots: Vec<String>,
@@ -111,13 +111,13 @@ pub enum RobotError {
         second: String,
     },
     /// Two links share a name.
-    #[error("read urdf: found two links named `{link}`; expected unique names; rename one")]
+    #[error("read urdf: two links are named `{link}`; expected unique names; rename one")]
     DuplicateLink {
         /// The shared name.
         link: String,
     },
     /// Two joints share a name.
-    #[error("read urdf: found two joints named `{joint}`; expected unique names; rename one")]
+    #[error("read urdf: two joints are named `{joint}`; expected unique names; rename one")]
     DuplicateJoint {
         /// The shared name.
         joint: String,

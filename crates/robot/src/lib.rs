@@ -4,6 +4,22 @@
 //! the mass matrix, the Coriolis matrix, inverse and forward dynamics are evaluated without allocation. Everything is
 //! in SI units and radians, in `f64`, and expressed in the axes of the arm's base unless a name says otherwise.
 //!
+//! | wanted | take |
+//! |---|---|
+//! | an arm out of a URDF file, and what is odd about the file | [`Manipulator::from_urdf_str`], [`Manipulator::warnings`] |
+//! | a tool or load in the hand, another mounting, rotor inertias | [`Manipulator::attach_payload`], [`Manipulator::mount`], [`Manipulator::set_rotor_inertia`] |
+//! | poses and velocities of frames, J and J̇ | [`Workspace::base_from_frame`], [`Workspace::frame_velocity`], [`Workspace::jacobian_into`], [`Workspace::jacobian_rate_into`] |
+//! | M(q), C(q, q̇), g(q) | [`Workspace::mass_matrix_into`], [`Workspace::coriolis_matrix_into`], [`Workspace::gravity_into`] |
+//! | torques of a motion, motion under torques | [`Workspace::inverse_dynamics_into`], [`Workspace::forward_dynamics_into`] |
+//! | a posture for a pose, within the limits | [`InverseKinematics`]; a start for it: [`Manipulator::middle_posture`] |
+//! | joint positions, velocities and accelerations along a path | [`DifferentialKinematics`], with a [`Redundancy`] for spare joints |
+//! | joints that mimic others, as of a gripper | [`Manipulator::couplings`], [`Manipulator::complete_positions`] |
+//! | meshes of the links | [`Manipulator::resolve_meshes`] |
+//!
+//! Programs to begin with, `cargo run --release -p robot --example NAME`: `dynamics` (M, C, g, J, inverse and forward dynamics at a
+//! posture, of any URDF file), `inverse_kinematics` (postures within limits, and a pose that is refused), `follow_path` (a circle
+//! at 1 kHz, with its torques).
+//!
 //! ```
 //! use nalgebra::{DMatrix, DVector};
 //! use robot::{InverseKinematics, InverseKinematicsOptions, Manipulator, TaskRows};

@@ -1,6 +1,6 @@
 //! The constant model of an arm: joints, bodies, named frames, mounting and gravity.
 
-use nalgebra::{Isometry3, Matrix3, Vector3};
+use nalgebra::{DVector, Isometry3, Matrix3, Vector3};
 
 use crate::error::RobotError;
 use crate::joint::{Body, Joint};
@@ -223,6 +223,28 @@ impl Manipulator {
     /// Sets gravity in base axes (m/s²).
     pub fn set_gravity(&mut self, gravity_in_base: Vector3<f64>) {
         self.gravity_in_base = gravity_in_base;
+    }
+
+    /// Returns the posture in the middle of the joints' ranges (n entries; rad or m): one that any arm may take, as a start of
+    /// [`crate::InverseKinematics`] or as a preferred posture. Zero is outside the limits of many arms, a Panda among them.
+    ///
+    /// A joint without limits stands at zero, one with a single limit as near to zero as that allows, one that mimics
+    /// another where it puts it; a leader stays where its followers can follow.
+    pub fn middle_posture(&self) -> DVector<f64> {
+        let middle = |joint: usize| {
+            // a model that was read has a position for leader and followers
+            let limits = self.leader_limits(joint).unwrap_or(self.joints[joint].limits);
+            match (limits.lower, limits.upper) {
+                // a sum of halves, as the sum of huge limits overflows
+                (Some(lower), Some(upper)) => 0.5 * lower + 0.5 * upper,
+                _ => limits.clamp(0.0),
+            }
+        };
+        let mut q = DVector::from_fn(self.joint_count(), |joint, _| middle(joint));
+        for coupling in self.couplings() {
+            q[coupling.follower] = coupling.multiplier * q[coupling.leader] + coupling.offset;
+        }
+        q
     }
 
     /// Allocates the scratch memory in which this model is evaluated. Later changes of the model do not reach it.

@@ -63,7 +63,10 @@ pub enum Warning {
     },
     /// The inertia tensor cannot belong to any rigid body.
     #[error(
-        "link `{link}`: principal moments {moments:?} kg m² belong to no rigid body; expected none below zero and none above the sum of the others; correct <inertia>"
+        "link `{link}`: ITS INERTIA IS IMPOSSIBLE: no rigid body has the principal moments {} kg m²; expected none below zero and \
+         none above the sum of the others; the link is simulated as written, so do not trust how it turns; correct <inertia>, \
+         for instance with the moments that a drawing program computes from its shape",
+        listed(moments)
     )]
     UnphysicalInertia {
         /// The link.
@@ -103,6 +106,16 @@ pub enum Warning {
         /// The joint.
         joint: String,
     },
+    /// A limit of zero was taken as none.
+    #[error(
+        "joint `{joint}`: {attribute}=\"0\" is taken as unlimited; write the true limit, or leave {attribute} out if there is none"
+    )]
+    LimitZero {
+        /// The joint.
+        joint: String,
+        /// The attribute: effort or velocity.
+        attribute: &'static str,
+    },
     /// A joint that others mimic may not use all of its own range.
     #[error(
         "joint `{joint}`: the limits of the joints that mimic it leave {lower} to {upper} (rad or m) of its own range"
@@ -115,4 +128,9 @@ pub enum Warning {
         /// The largest position that suits all (rad or m; ∞ if unlimited).
         upper: f64,
     },
+}
+
+/// Principal moments with four digits.
+fn listed(moments: &[f64; 3]) -> String {
+    moments.map(|moment| format!("{moment:.3e}")).join(", ")
 }

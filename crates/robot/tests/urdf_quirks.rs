@@ -126,6 +126,10 @@ fn limits_that_are_not_stated_are_unlimited() {
     let absent: Vec<_> =
         arm.warnings().iter().filter(|warning| matches!(warning, Warning::LimitsAbsent { .. })).collect();
     assert_eq!(absent, [&Warning::LimitsAbsent { joint: "no_limit".into() }]);
+    let zero = |attribute| Warning::LimitZero { joint: "upper_only".into(), attribute };
+    let zeros: Vec<_> = arm.warnings().iter().filter(|warning| matches!(warning, Warning::LimitZero { .. })).collect();
+    assert_eq!(zeros, [&zero("effort"), &zero("velocity")]);
+    assert!(zeros[0].to_string().contains("effort=\"0\" is taken as unlimited"), "{}", zeros[0]);
 }
 
 #[test]
@@ -147,6 +151,8 @@ fn odd_inertials_load_with_a_warning_and_dynamics_are_refused_by_name() {
     assert!(matches!(&warnings[1], Warning::UnphysicalInertia { link, .. } if link == "flat"));
     assert!(matches!(&warnings[2], Warning::UnphysicalInertia { link, moments }
         if link == "negative" && moments.contains(&-1.0)));
+    let told = warnings[2].to_string();
+    assert!(told.contains("ITS INERTIA IS IMPOSSIBLE") && told.contains("-1.000e0"), "{told}");
     assert_eq!(warnings[3], Warning::MasslessBody { joint: "e".into() });
     assert_eq!(warnings.len(), 4);
     let error = arm.check_dynamics().unwrap_err();
@@ -209,9 +215,9 @@ fn flaws_are_refused_with_line_owner_and_remedy() {
         ("lower=\"-1\"", "lower=\"3\"", "joint `turn` has lower limit 3 above upper limit 1"),
         ("<mass value=\"1\"", "<mass value=\"nan\"", "mass of link `base` is not a finite number"),
         ("ixx=\"1\"", "ixx=\"inf\"", "inertia of link `base` is not a finite number"),
-        ("<link name=\"arm\"/>", "<link name=\"arm\"/><link name=\"arm\"/>", "two links named `arm`"),
+        ("<link name=\"arm\"/>", "<link name=\"arm\"/><link name=\"arm\"/>", "two links are named `arm`"),
         ("<link name=\"arm\"/>", "", "joint `turn` names the child link `arm`, which does not exist"),
-        ("</joint>", "</joint><link name=\"b\"/>", "found 2 root links (base, b)"),
+        ("</joint>", "</joint><link name=\"b\"/>", "read urdf: 2 root links (base, b)"),
         ("</joint>", "", "line 9: </robot> stands where <joint> of line 4 ends"),
         ("<axis ", "<axis \"", "line 8: <axis> is not closed by `>`"),
         ("name=\"r\"", "name=\"&undefined;\"", "does not parse"),

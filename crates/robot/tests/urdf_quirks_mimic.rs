@@ -170,3 +170,19 @@ fn the_fingers_of_the_panda_hand_close_together() {
     assert!((hand.joints().iter().map(|joint| joint.body.mass_kg).sum::<f64>() - 0.03).abs() < ROUNDING);
     assert_eq!(hand.leader_limits(0).unwrap(), hand.joints()[0].limits);
 }
+
+#[test]
+fn the_middle_posture_is_one_that_the_arm_may_take() {
+    for urdf in [common::PANDA, common::PLANAR_3R, common::THREE_FINGERS, common::BRANCHED, PANDA_HAND, MIMICS] {
+        let arm = model(urdf);
+        let q = arm.middle_posture();
+        assert!(common::within_limits(&arm, &q), "{}: {q}", arm.name());
+        let mut completed = q.clone();
+        arm.complete_positions(&mut completed).unwrap();
+        assert_eq!(completed, q, "{}", arm.name());
+    }
+    // (lower + upper)/2 of the file; the continuous joint of the branched tree stands at zero
+    let panda = model(common::PANDA).middle_posture();
+    assert!((panda[3] - 0.5 * (-3.0718 - 0.0698)).abs() < ROUNDING && (panda[5] - 1.8675).abs() < ROUNDING);
+    assert_eq!(model(common::BRANCHED).middle_posture(), DVector::zeros(4));
+}

@@ -95,6 +95,7 @@ impl Parts {
         if kind != JointKind::Continuous && limits.lower.is_none() && limits.upper.is_none() {
             self.warnings.push(Warning::LimitsAbsent { joint: joint.name.clone() });
         }
+        self.warnings.extend(zero_limits(joint));
         self.joints.push(Joint {
             name: joint.name.clone(),
             kind,
@@ -163,6 +164,16 @@ impl Parts {
             None => Ok(()),
         }
     }
+}
+
+/// What is said of limits that are written as zero. A joint without any <limit> reads as if all were: of it the position limits
+/// are told.
+fn zero_limits(joint: &urdf_rs::Joint) -> Vec<Warning> {
+    let limit = &joint.limit;
+    let is_there = [limit.lower, limit.upper, limit.velocity, limit.effort].iter().any(|value| *value != 0.0);
+    let limits = [("effort", limit.effort), ("velocity", limit.velocity)].into_iter();
+    let zeros = limits.filter(|(_, value)| is_there && *value == 0.0);
+    zeros.map(|(attribute, _)| Warning::LimitZero { joint: joint.name.clone(), attribute }).collect()
 }
 
 /// Reads limits; the parser gives 0 or infinity for what the file does not state.
