@@ -34,15 +34,15 @@ const ALIGNED_RATE_HZ: f64 = 100.0;
 /// Standard deviation of the Gaussian that smooths both paths, s: keeps motions below 1.5 Hz, which are the voluntary ones.
 const SMOOTHING_S: f64 = 0.10;
 
-/// Longest time over which a recording is continued by a straight line, s: a hand may turn round within more.
-const LARGEST_GAP_S: f64 = 1.0;
+/// Longest time between two rows of a recording, s: a hand may turn round within more.
+pub const LARGEST_GAP_S: f64 = 1.0;
 
 impl Demonstration {
     /// Checks that both trajectories have the columns x, y, angle and overlap in time without large gaps; angles are
     /// continued across ±π.
     ///
     /// # Errors
-    /// [`SkillError::Dimension`], [`SkillError::RowCount`], or [`SkillError::InvalidArgument`] for a gap.
+    /// [`SkillError::Dimension`], [`SkillError::RowCount`], or [`SkillError::RecordingGap`].
     pub fn new(name: impl Into<String>, tool: Trajectory, object: Trajectory) -> Result<Self, SkillError> {
         const OPERATION: &str = "read demonstration";
         for trajectory in [&tool, &object] {
@@ -56,28 +56,23 @@ impl Demonstration {
             let expected = "tool and object recorded at the same time".into();
             return Err(SkillError::RowCount { operation: OPERATION, found: 0, expected });
         }
-        let gap_s = demonstration.largest_gap_s();
-        if gap_s > LARGEST_GAP_S {
-            let expected = "at most 1 s between two rows of the tool or of the object";
-            return Err(SkillError::InvalidArgument {
-                operation: OPERATION,
-                argument: "gap_s",
-                found: gap_s,
-                expected,
-            });
-        }
+        demonstration.check_gaps()?;
         Ok(demonstration)
     }
 
-    /// Largest time between two rows of one recording, as far as both were recording, s.
-    fn largest_gap_s(&self) -> f64 {
+    /// Refuses too long a time between two rows of one recording, as far as both were recording.
+    fn check_gaps(&self) -> Result<(), SkillError> {
         let (from, to) = self.common_time_s();
-        let gap = |pair: &[f64]| match pair {
-            [before, after] => after.min(to) - before.max(from),
-            _ => 0.0,
-        };
-        let recordings = [&self.tool, &self.object].into_iter();
-        recordings.flat_map(|recording| recording.times_s().windows(2)).map(gap).fold(0.0, f64::max)
+        for (part, recording) in [("tool", &self.tool), ("object", &self.object)] {
+            for pair in recording.times_s().windows(2) {
+                let &[before, after] = pair else { continue };
+                let (from_s, gap_s) = (before.max(from), after.min(to) - before.max(from));
+                if gap_s > LARGEST_GAP_S {
+                    return Err(SkillError::RecordingGap { part, gap_s, from_s, largest_s: LARGEST_GAP_S });
+                }
+            }
+        }
+        Ok(())
     }
 
     fn common_time_s(&self) -> (f64, f64) {
@@ -215,9 +210,12 @@ mod tests {
     fn a_huge_gap_is_refused_while_both_record_and_allowed_before_and_after() {
         let rows = |times: &[f64]| Trajectory::new(times.to_vec(), DMatrix::zeros(times.len(), 3)).unwrap();
         let refused = Demonstration::new("a", rows(&[0.0, 0.5, 1e9]), rows(&[0.0, 1e9]));
-        assert!(matches!(refused, Err(SkillError::InvalidArgument { argument: "gap_s", found, .. }) if found > 9e8));
+        assert!(matches!(refused, Err(SkillError::RecordingGap { part: "tool", gap_s, .. }) if gap_s > 9e8));
         let refused = Demonstration::new("a", rows(&[0.0, 0.5, 1.0, 1.5, 2.0]), rows(&[0.0, 0.4, 1.6, 2.0]));
-        assert!(matches!(refused, Err(SkillError::InvalidArgument { found, .. }) if (found - 1.2).abs() < 1e-12));
+        let Err(SkillError::RecordingGap { part: "object", gap_s, from_s, .. }) = refused else {
+            panic!("{refused:?}")
+        };
+        assert!((gap_s - 1.2).abs() < 1e-12 && from_s == 0.4);
         assert!(Demonstration::new("a", rows(&[-1e9, 0.0, 0.5, 1e9]), rows(&[0.0, 0.5])).is_ok());
     }
 

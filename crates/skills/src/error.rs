@@ -23,6 +23,21 @@ pub enum SkillError {
         /// The range expected.
         expected: &'static str,
     },
+    /// A recording tells nothing for so long that what happened would have to be invented.
+    #[error(
+        "read demonstration: the {part} was not recorded for {gap_s:.3} s, from {from_s:.3} s on; expected at most {largest_s} s \
+         between two rows; record without a pause"
+    )]
+    RecordingGap {
+        /// What was not recorded: the tool or the object.
+        part: &'static str,
+        /// Length of the gap, s.
+        gap_s: f64,
+        /// Where it begins, s.
+        from_s: f64,
+        /// Longest gap accepted, s.
+        largest_s: f64,
+    },
     /// A table of samples has the wrong number of rows.
     #[error("{operation}: found {found} rows; expected {expected}; give one row per instant")]
     RowCount {
@@ -70,8 +85,8 @@ pub enum SkillError {
     },
     /// Two trajectories to be joined do not meet.
     #[error(
-        "join motions: the ends are {gap} apart; expected at most {largest_gap}; move the second one or \
-         allow a larger gap"
+        "join motions: the ends are {gap:.4} apart (m, or rad of an angle); expected at most {largest_gap:.4}; move the \
+         second one or allow a larger gap"
     )]
     Gap {
         /// Euclidean distance of the two ends, in the unit of the samples.

@@ -17,7 +17,36 @@
 //! | [`tool_use`], [`transfer`] | learns pushing from demonstrations, plans with the same tool or with another one | Sec. III, IV.A |
 //! | [`baseline`] | RRT* and two-level tool planning, to compare with | Sec. IV.B |
 //!
-//! # Example
+//! Below them: [`trajectory`] (samples over time: derivatives, smoothing, joining), [`demonstration`] and [`segmentation`]
+//! (what a person showed of a tool and an object, cut into actions), [`basis`], [`canonical`] and [`time_law`] (the functions that
+//! primitives are made of), [`outline`], [`tool`] and [`pushing`] (flat shapes, tools with surfaces, what a push does),
+//! [`field`] and [`error`] (why something was refused).
+//!
+//! # Which primitive
+//!
+//! | wanted | take |
+//! |---|---|
+//! | one demonstration or the mean of several, a goal or duration that changes on the way, obstacles | [`Dmp`], step by step [`DmpStepper`] |
+//! | a tool's position and orientation | [`PoseDmp`], [`PoseStepper`] |
+//! | via points, several at once; where the demonstrations agree | [`Kernelized`] with [`ViaPoint`]s |
+//! | several demonstrations of which the best way to generalize is not known | [`Generalizing`] |
+//! | the kind named in a file | [`PrimitiveConfig`], saved as [`SavedPrimitive`] |
+//! | bounds of position, certified | [`corridor_filter::constrain`] |
+//! | limits of velocity and acceleration | [`Rollout::least_stretch`], [`Rollout::stretched`] |
+//!
+//! # Examples
+//!
+//! Programs to begin with, `cargo run --release -p skills --example NAME`:
+//!
+//! | name | what it shows |
+//! |---|---|
+//! | `learn_from_csv` | a demonstration out of a CSV file, smoothed, learned and moved to a new goal |
+//! | `change_goal` | a control loop, step by step, in which goal and duration change |
+//! | `pose` | position and orientation, the way round that was shown, a goal that moves |
+//! | `via_points` | several demonstrations, where they agree, two via points |
+//! | `corridor` | a motion kept inside bounds with its certificate, and slowed to keep limits |
+//! | `save_and_load` | every kind as text and back, with equal bits; a damaged file |
+//!
 //!
 //! Learn a motion from one demonstration, move it to a new goal, and keep it inside a corridor:
 //!
@@ -71,8 +100,10 @@ pub mod trajectory;
 pub mod transfer;
 
 pub use error::SkillError;
+pub use primitive::kernelized::{KernelizedMotion, ViaPoint};
+pub use primitive::pose::{PoseDmp, PoseError, PoseMotion, PoseRequest, PoseRollout, PoseStepper, PoseTrajectory};
 pub use primitive::{
-    Dmp, DmpConfig, DmpForm, DmpPair, DmpStepper, MovementPrimitive, PrimitiveConfig, Rollout, RolloutRequest,
-    SavedDmp, rollout_pair,
+    Dmp, DmpConfig, DmpForm, DmpPair, DmpStepper, Generalizing, GeneralizingConfig, Kernelized, KernelizedConfig,
+    MotionLimits, MovementPrimitive, PrimitiveConfig, Rollout, RolloutRequest, SavedDmp, SavedPrimitive, rollout_pair,
 };
-pub use trajectory::Trajectory;
+pub use trajectory::{Ends, Trajectory};

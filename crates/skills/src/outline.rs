@@ -23,13 +23,16 @@ pub enum Outline {
     /// A disc about the origin.
     Disc {
         /// Radius, m.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
     /// A rectangle about the origin, its sides along the axes.
     Box {
         /// Extent along x, m.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         width_m: f64,
         /// Extent along y, m.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         height_m: f64,
     },
     /// A convex polygon, its vertices counterclockwise.

@@ -1,6 +1,10 @@
 //! Trajectories: strictly increasing times and one row of coordinates per time, checked once.
 
+mod smoothing;
+
 use nalgebra::{DMatrix, DVector, RowDVector};
+
+pub use smoothing::Ends;
 
 use crate::error::SkillError;
 

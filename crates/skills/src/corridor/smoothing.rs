@@ -21,8 +21,10 @@ const SAME_KNOT: f64 = 1e-9;
 pub struct SmoothingConfig {
     /// Half-width h of the window, s: a jump of a bound becomes a minimum-jerk step of duration 2h that ends before the
     /// jump (begins after it, where the corridor opens). 0.05 s by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub half_window_s: f64,
     /// Least width over the median width, 0 to 0.5, without unit; 0.1 by default. 0 refuses a corridor that closes.
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub least_width: f64,
 }
 

@@ -37,10 +37,13 @@ pub struct Ecbf {
     /// How the conditions are put to a sampled motion.
     pub form: EcbfForm,
     /// c₁ > 0, per s; 20 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub rate_1: f64,
     /// c₂ > 0, per s; 20 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub rate_2: f64,
     /// α of the nominal tracking, without unit; 25 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub alpha: f64,
 }
 

@@ -29,8 +29,10 @@ const LARGEST_EXPONENT: f64 = 700.0;
 pub struct Logit {
     /// Largest margin m as a part of the width, above 0 and below 0.5; 0.3 by default. A smaller one stays with the skill
     /// longer and turns away from the bounds more sharply: 0.15 takes about twice the peak acceleration.
+    #[schemars(range(min = 1e-6, max = 0.499))]
     pub margin: f64,
     /// α of the deviation's decay, without unit; 25 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub alpha: f64,
     /// Whether the dynamics of y_r are fed forward (default). Without, y follows y_r like the primitive of Eq. (1) does
     /// its goal: gentler, but late by about 4τ/α.

@@ -26,14 +26,19 @@ use crate::time_law::PathState;
 #[serde(default, deny_unknown_fields)]
 pub struct OriginalReconstruction {
     /// k₁ > 0, without unit; 10 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_1: f64,
     /// k₂ > 0, without unit; 10 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_2: f64,
     /// k_n > 0: weight of z₂² next to the barrier, per squared unit of the skill; 1 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_n: f64,
     /// ε > 0 that keeps κ̄ differentiable, per squared second; 1e-3 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub epsilon: f64,
     /// Margin m of the reference x^c as a part of the width, above 0 and below 0.5; 0.3 by default.
+    #[schemars(range(min = 1e-6, max = 0.499))]
     pub margin: f64,
 }
 

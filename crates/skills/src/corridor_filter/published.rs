@@ -17,10 +17,13 @@ use crate::time_law::PathState;
 #[serde(default, deny_unknown_fields)]
 pub struct Published {
     /// k_n > 0 of Eq. (31), per s and squared unit of the skill; 1 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_n: f64,
     /// k_z ≥ 0 of Eq. (32), "a tiny positive number", unit of k_n; 1e-3 by default.
+    #[schemars(range(min = 0.0))]
     pub k_z: f64,
     /// α of Eq. (29), without unit, β = α/4; 25 by default. It cancels.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub alpha: f64,
 }
 

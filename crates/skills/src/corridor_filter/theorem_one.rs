@@ -41,11 +41,14 @@ pub struct TheoremOne {
     /// How the law is integrated.
     pub integration: Integration,
     /// k_λ > 0, without unit: the speed of the approach to the middle, e^{−k_λ·t/τ}; 10 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_lambda: f64,
     /// k_n > 0 of Eq. (31), per s and squared unit of the skill; 1 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub k_n: f64,
     /// k_z ≥ 0 of Eq. (32), unit of k_n; 10 by default. z₂ decays like e^{−(k_z + 1/(4k_λτD))t/(k_nτ)}: with the paper's "tiny
     /// positive number", a large k_λ makes the law slower, not faster.
+    #[schemars(range(min = 0.0))]
     pub k_z: f64,
 }
 

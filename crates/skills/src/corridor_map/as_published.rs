@@ -15,8 +15,10 @@ use crate::field::{FieldError, positive};
 #[serde(default, deny_unknown_fields)]
 pub struct AsPublished {
     /// σ1, in place of Δx1 = 0, unit of the positions squared; 1e-6 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sigma1: f64,
     /// σ2, in place of Δx3 + Δx1 = 0, unit of the positions squared; 1e-6 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub sigma2: f64,
 }
 

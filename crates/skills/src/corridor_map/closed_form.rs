@@ -76,8 +76,10 @@ impl CorridorMap for NormalForm {
 #[serde(default, deny_unknown_fields)]
 pub struct ClosedForm {
     /// Least steepness, without unit; 1 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub min_steepness: f64,
     /// Greatest steepness, without unit; 40 by default.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub max_steepness: f64,
 }
 

@@ -15,6 +15,7 @@ use crate::field::{FieldError, within};
 pub struct MForm {
     /// Strength S of the logit in widths of the corridor, 0.001 to 1; 1/4 by default, which has slope one in the
     /// middle.
+    #[schemars(range(min = 0.001, max = 1.0))]
     pub strength: f64,
 }
 

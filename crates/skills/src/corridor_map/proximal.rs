@@ -14,6 +14,7 @@ use crate::field::{FieldError, within};
 #[serde(default, deny_unknown_fields)]
 pub struct Proximal {
     /// Strength S of the correction in widths of the corridor, 0.001 to 1; 0.05 by default.
+    #[schemars(range(min = 0.001, max = 1.0))]
     pub strength: f64,
 }
 

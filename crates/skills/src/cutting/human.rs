@@ -21,14 +21,19 @@ pub struct CutHuman {
     /// The hand that holds the knife.
     pub hand: HandConfig,
     /// Draw along the edge over depth.
+    #[schemars(range(min = -5.0, max = 5.0))]
     pub slice_push_ratio: f64,
     /// Angle by which the edge is inclined at the begin of the stroke, rad; level at its end.
+    #[schemars(range(min = -0.6, max = 0.6))]
     pub rock_rad: f64,
     /// Mean speed of the stroke into the food, m/s.
+    #[schemars(range(min = 0.002, max = 0.2))]
     pub speed_m_per_s: f64,
     /// Height above the food at which the stroke begins, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub lead_m: f64,
     /// Height above the food from which the knife comes and to which it goes, m.
+    #[schemars(range(max = 0.5))]
     pub lift_m: f64,
 }
 

@@ -24,8 +24,10 @@ pub struct CutLearning {
     /// Primitive of the whole demonstration that [`CutSkill::plain_dmp`] moves.
     pub plain: DmpConfig,
     /// Standard deviation of the hand and the recording in the section, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub noise_m: f64,
     /// Angle below which rocking is the hand's noise, rad.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub least_rock_rad: f64,
 }
 

@@ -20,6 +20,7 @@ pub enum Stroke {
     /// With a draw along the edge in proportion to the depth.
     Slice {
         /// Speed along the edge over speed into the food; its sign is the direction of the first draw along x.
+        #[schemars(range(min = -20.0, max = 20.0))]
         ratio: f64,
     },
     /// From an inclined edge to a level one, without draw.
@@ -36,16 +37,22 @@ pub struct CutOptions {
     /// Kind of stroke.
     pub stroke: Stroke,
     /// How far past the board's surface the stroke is to end, m: a board gives way a little, and fibers next to it are cut.
+    #[schemars(range(min = 0.0))]
     pub past_board_m: f64,
     /// How far past the board's surface the edge may ever be, m: more than `past_board_m`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub largest_past_board_m: f64,
     /// Height above the food at which a stroke begins, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub lead_m: f64,
     /// Height above the food at which the knife travels, m; that of the demonstration if absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub lift_m: Option<f64>,
     /// Mean speed of the edge in the food, m/s; that of the demonstration if absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub speed_m_per_s: Option<f64>,
     /// Largest angle by which the edge may rock, rad.
+    #[schemars(range(min = 0.01, max = 0.8))]
     pub largest_rock_rad: f64,
     /// Free moves between cuts.
     pub free_move: FreeMoveConfig,

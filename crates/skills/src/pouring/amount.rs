@@ -9,22 +9,31 @@ use crate::field::{FieldError, not_negative, positive, within};
 #[serde(default, deny_unknown_fields)]
 pub struct AmountOptions {
     /// Time of fall from the lip to what is weighed, s.
+    #[schemars(range(min = 0.0))]
     pub fall_s: f64,
     /// Time for which the flow goes on once the cup begins to tilt back, at its full rate, s.
+    #[schemars(range(min = 0.0))]
     pub stop_s: f64,
     /// Time over which the flow is smoothed, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub smoothing_s: f64,
     /// Mass that is left to be dribbled when the quick pour ends, kg.
+    #[schemars(range(min = 0.0))]
     pub dribble_kg: f64,
     /// Rate of tilt while it is dribbled, rad/s.
+    #[schemars(range(min = 1e-3, max = 1.0))]
     pub dribble_rate_rad_per_s: f64,
     /// Angle by which the cup is tilted back to stop a flow, rad.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub retreat_rad: f64,
     /// Time without landing after which a flow has stopped, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub quiet_s: f64,
     /// Lack at which it is left, kg.
+    #[schemars(range(min = 0.0))]
     pub tolerance_kg: f64,
     /// Time after which it is left at what was poured, s.
+    #[schemars(range(min = 1.0, max = 600.0))]
     pub longest_s: f64,
 }
 

@@ -23,14 +23,19 @@ pub struct PourHuman {
     /// What is in the cup.
     pub fill: Fill,
     /// Place of the lip over the mouth while it pours, in radii of the mouth along the direction of pouring.
+    #[schemars(range(min = -0.9, max = 0.9))]
     pub over: f64,
     /// Height at which the lip is kept above what the cup clears, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub gap_m: f64,
     /// Peak speed of the approach, m/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub speed_m_per_s: f64,
     /// Height by which the cup is lifted on its way, m.
+    #[schemars(range(min = 0.0, max = 0.12))]
     pub lift_m: f64,
     /// Peak rate of the tilt, rad/s.
+    #[schemars(range(min = 0.05, max = 5.0))]
     pub tilt_rate_rad_per_s: f64,
 }
 

@@ -24,6 +24,7 @@ pub struct PourLearning {
     /// Primitive of the whole demonstration that [`PourSkill::plain_dmp`] moves.
     pub plain: DmpConfig,
     /// Clearance of the virtual movement that is taken out of what was shown, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub margin_m: f64,
 }
 

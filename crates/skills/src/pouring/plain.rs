@@ -21,9 +21,10 @@ impl PourSkill {
         task.validate()?;
         // seen from where it was shown, so that the way is turned with the direction of pouring
         let moved = task.mouth.world_from_pour(task.direction()) * self.whole.world_from_pour.inverse();
+        let duration_s = task.options.plain_duration * self.whole.duration_s;
         let request = PoseRequest {
             settle_s: SETTLE_S,
-            ..PoseRequest::new(moved.inverse() * task.start, self.whole.steepest, self.whole.duration_s, STEP_S)
+            ..PoseRequest::new(moved.inverse() * task.start, self.whole.steepest, duration_s, STEP_S)
         };
         let rollout = self.plain.rollout(&request)?;
         let end = rollout.motions.len().saturating_sub(1);

@@ -60,8 +60,8 @@ pub enum PourError {
     },
     /// Cup and rim are not certified to keep clear.
     #[error(
-        "plan pour: in '{action}' the cup is certified to {clearance_m:.4} m of the rim only, sampled {sampled_m:.4} m at \
-         {time_s:.2} s; expected at least {least_m:.4} m; raise margin_m or gap_m, or tell another direction_rad"
+        "plan pour: in '{action}' the cup {}, sampled {sampled_m:.4} m at {time_s:.2} s; expected at least {least_m:.4} m; raise margin_m or gap_m, or tell another direction_rad",
+        certified(*clearance_m)
     )]
     NotClear {
         /// Name of the action.
@@ -106,5 +106,36 @@ pub enum PourError {
 impl From<FieldError> for PourError {
     fn from(error: FieldError) -> Self {
         Self::Skill(error.into())
+    }
+}
+
+/// What is certified of a clearance, m; −∞ where the search gave up.
+fn certified(clearance_m: f64) -> String {
+    if clearance_m.is_finite() {
+        format!("is certified to {clearance_m:.4} m of the rim only")
+    } else {
+        "is not certified to keep any distance from the rim".into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_that_gave_up_is_told_in_words_and_not_as_infinity() {
+        let refused = |clearance_m| PourError::NotClear {
+            action: "approach".into(),
+            clearance_m,
+            sampled_m: 0.001,
+            time_s: 1.5,
+            least_m: 0.005,
+        };
+        let told = refused(f64::NEG_INFINITY).to_string();
+        assert!(
+            told.contains("the cup is not certified to keep any distance from the rim, sampled 0.0010 m"),
+            "{told}"
+        );
+        assert!(refused(0.002).to_string().contains("the cup is certified to 0.0020 m of the rim only, sampled"));
     }
 }

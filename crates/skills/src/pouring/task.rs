@@ -45,36 +45,53 @@ pub enum PourAim {
 #[serde(default, deny_unknown_fields)]
 pub struct PourOptions {
     /// Height of the lip above what the cup clears, m: above the rim once the cup is tilted.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub gap_m: f64,
     /// Largest height of the lip above the rim when the flow may begin, m: from higher it scatters.
+    #[schemars(range(max = 1.0))]
     pub largest_gap_m: f64,
     /// Clearance between cup and rim that is certified for the whole plan, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub least_clearance_m: f64,
     /// Clearance of the virtual movement x^o, m: more than `least_clearance_m`.
+    #[schemars(range(max = 0.5))]
     pub margin_m: f64,
     /// Distance of the lip from the mouth's inner edge while the flow may run, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub lip_margin_m: f64,
     /// Where the lip is held over the mouth.
     pub aim: PourAim,
     /// Height of the table that the cup stays above, world frame, m; that of the start if absent.
     pub floor_m: Option<f64>,
     /// Distance of the lip from the rim at which the approach ends, m: more than `margin_m`.
+    #[schemars(range(max = 0.5))]
     pub beside_m: f64,
     /// Factor k2 of the virtual movement; the paper's is 1.
+    #[schemars(range(min = 0.0))]
     pub k2: f64,
     /// Angle before the onset of the flow from which on the lip is over the mouth and the tilt is slow, rad.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub before_onset_rad: f64,
     /// Angle beyond level at which the cup is emptied, rad.
+    #[schemars(range(min = 0.0, max = FRAC_PI_2))]
     pub beyond_level_rad: f64,
     /// Largest rate of tilt before the flow may begin, rad/s.
+    #[schemars(range(min = 0.01, max = 10.0))]
     pub tilt_rate_rad_per_s: f64,
     /// Largest rate of tilt while it may run, rad/s.
+    #[schemars(range(min = 0.01))]
     pub pour_rate_rad_per_s: f64,
+    /// Duration of the plain primitive in durations of its demonstration: τ of Eqs. (1) to (3).
+    #[schemars(range(min = 0.1, max = 20.0))]
+    pub plain_duration: f64,
     /// Time for which the cup is held empty, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub hold_s: f64,
     /// Largest tilt during the approach, rad.
+    #[schemars(range(min = 0.02, max = 0.8))]
     pub level_rad: f64,
     /// Largest mean speed of the approach, m/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub approach_speed_m_per_s: f64,
     /// Law that keeps approach and lip inside their corridors.
     pub corridor_filter: CorridorFilterConfig,
@@ -96,6 +113,7 @@ impl Default for PourOptions {
             beyond_level_rad: 0.45,
             tilt_rate_rad_per_s: 0.8,
             pour_rate_rad_per_s: 0.35,
+            plain_duration: 1.0,
             hold_s: 0.8,
             level_rad: 0.25,
             approach_speed_m_per_s: 0.10,
@@ -121,6 +139,7 @@ impl PourOptions {
         within("beyond_level_rad", self.beyond_level_rad, 0.0, FRAC_PI_2)?;
         within("tilt_rate_rad_per_s", self.tilt_rate_rad_per_s, 0.01, 10.0)?;
         within("pour_rate_rad_per_s", self.pour_rate_rad_per_s, 0.01, self.tilt_rate_rad_per_s)?;
+        within("plain_duration", self.plain_duration, 0.1, 20.0)?;
         finite("floor_m", self.floor_m.as_slice())?;
         positive("hold_s", self.hold_s)?;
         within("level_rad", self.level_rad, 0.02, 0.8)?;

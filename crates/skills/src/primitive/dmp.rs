@@ -21,6 +21,7 @@ pub(super) use learning::common_dimension;
 pub use pair::{DmpPair, rollout_pair};
 pub use saved::SavedDmp;
 pub use stepper::DmpStepper;
+pub(super) use stepper::SHORTEST_TRANSFER;
 
 use super::{MovementPrimitive, Rollout, RolloutRequest, SavedPrimitive};
 use crate::basis::GaussianBasis;
@@ -50,6 +51,9 @@ impl Dmp {
     /// Demonstrations share the dimension d, unit and frame; starts, goals, durations and sampling may differ, each being
     /// learned in its own time over duration, from its own start to its own end. Where one of them does not come to rest,
     /// the forcing term fades before the end of the motion (see [`Dmp::fades_before_end`]).
+    ///
+    /// A rollout starts at rest unless it is asked for the demonstrated velocity: noise of a sensor, which looks like a
+    /// speed at the ends, is better taken out before by [`Trajectory::smoothed`].
     ///
     /// # Errors
     /// If `config` is invalid, there is no demonstration, the dimensions differ, the form is scaled and a coordinate has

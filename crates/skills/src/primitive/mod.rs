@@ -6,6 +6,7 @@ mod dmp;
 pub mod generalizing;
 pub mod kernelized;
 pub mod pose;
+mod retiming;
 mod rollout;
 mod saved;
 
@@ -16,6 +17,7 @@ use serde::{Deserialize, Serialize};
 pub use dmp::{Dmp, DmpConfig, DmpForm, DmpPair, DmpStepper, SavedDmp, rollout_pair};
 pub use generalizing::{Generalizing, GeneralizingConfig};
 pub use kernelized::{Kernelized, KernelizedConfig};
+pub use retiming::MotionLimits;
 pub use rollout::{Rollout, RolloutRequest};
 pub use saved::{RestoreError, SavedPrimitive};
 

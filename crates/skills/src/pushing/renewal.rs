@@ -22,14 +22,19 @@ use crate::field::{FieldError, not_negative, positive, within};
 #[serde(default, deny_unknown_fields)]
 pub struct HoldRenewalConfig {
     /// Deviation of the object from its line that is not worth a renewal, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub deviation_m: f64,
     /// Share of the offset wanted by the steering at which a hold counts as spent.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub used_share: f64,
     /// How far beyond its usable surface a contact may get, m.
+    #[schemars(range(min = 0.0))]
     pub overhang_m: f64,
     /// How far the tool backs off from the object, m.
+    #[schemars(range(min = LEAST_LIFT_M, max = LARGEST_LIFT_M))]
     pub lift_m: f64,
     /// Way of the object to its line's end below which no hold is renewed, m.
+    #[schemars(range(min = 0.0))]
     pub least_remaining_m: f64,
     /// Renewals in one push at most; none if zero.
     pub most_per_push: usize,

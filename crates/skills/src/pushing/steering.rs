@@ -22,12 +22,16 @@ use crate::field::{FieldError, positive, within};
 #[serde(default, deny_unknown_fields)]
 pub struct SteeringConfig {
     /// Way of the push over which an offset on the surface fades, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub offset_length_m: f64,
     /// Way of the push over which a deviation from the line fades on a round surface, m; longer where that is unstable.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub line_length_m: f64,
     /// Largest offset that is asked for, as a share of what the surface allows.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub offset_share: f64,
     /// Largest tangential velocity of the tool, as a share of the speed of the push.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub largest_slope: f64,
 }
 

@@ -16,6 +16,7 @@ use crate::field::{FieldError, not_negative};
 #[serde(default, deny_unknown_fields)]
 pub struct Ridge {
     /// λ ≥ 0, without unit; 1e-8 by default.
+    #[schemars(range(min = 0.0))]
     pub lambda: f64,
 }
 

@@ -17,13 +17,17 @@ const PEAK: f64 = 1.875;
 #[serde(default, deny_unknown_fields)]
 pub struct FreeMoveConfig {
     /// Peak speed of a leg, m/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub speed_m_per_s: f64,
     /// Peak angular speed of a leg, rad/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub angular_speed_rad_per_s: f64,
     /// Shortest leg, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub least_duration_s: f64,
     /// Part of the shorter of two legs by which the next begins before the one before has ended, 0 to 0.5: the larger, the
     /// rounder the corner at a via point.
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub overlap: f64,
 }
 

@@ -27,24 +27,33 @@ const PAUSE_SPREAD: f64 = 0.4;
 #[serde(default, deny_unknown_fields)]
 pub struct HandConfig {
     /// Velocity noise per speed, linear and angular (signal-dependent noise; C. M. Harris and D. M. Wolpert, 1998).
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub velocity_noise: f64,
     /// Constant velocity noise, m/s.
+    #[schemars(range(min = 0.0))]
     pub constant_noise_m_per_s: f64,
     /// Constant noise of the angular velocity, rad/s: 0.12 makes a blade wobble by about one degree.
+    #[schemars(range(min = 0.0))]
     pub constant_noise_rad_per_s: f64,
     /// Root mean square of the tremor at 8 to 12 Hz, m.
+    #[schemars(range(min = 0.0))]
     pub tremor_m: f64,
     /// Root mean square of the angular tremor, rad.
+    #[schemars(range(min = 0.0))]
     pub tremor_rad: f64,
     /// Delay from seeing an error to correcting it, s.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub reaction_s: f64,
     /// Speed of a correction per seen error, 1/s.
     pub gain_per_s: f64,
     /// Median pause at a change of contact, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub pause_s: f64,
     /// Coefficient of variation of durations between trials.
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub trial_variation: f64,
     /// Rate of the recording, Hz.
+    #[schemars(range(min = 20.0, max = 2000.0))]
     pub recording_hz: f64,
 }
 

@@ -34,12 +34,16 @@ pub struct SpatialLimits {
     /// Box of the world that the tool's origin stays in, lower and upper corner, m; nowhere bound if absent.
     pub workspace_m: Option<[[f64; 3]; 2]>,
     /// Largest speed of the tool's origin, m/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub speed_m_per_s: f64,
     /// Largest angular speed, rad/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub angular_speed_rad_per_s: f64,
     /// Largest acceleration of the tool's origin, m/s².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub acceleration_m_per_s2: f64,
     /// Largest angular acceleration, rad/s².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub angular_acceleration_rad_per_s2: f64,
 }
 

@@ -18,8 +18,10 @@ pub struct ToolFile {
     #[serde(default)]
     pub description: String,
     /// Mass, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass_kg: f64,
     /// Coefficient of friction between the tool and what it pushes.
+    #[schemars(range(min = 0.0))]
     pub friction: f64,
     /// Where the tool's own frame lies in the actuator's; both are the same if absent.
     #[serde(default)]

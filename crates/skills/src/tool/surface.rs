@@ -15,10 +15,12 @@ pub struct ContactSurface {
     pub shape: SurfaceShape,
     /// Coefficient of friction between this surface and the object; the tool's if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub friction: Option<f64>,
     /// Largest angle between the way of a push and the normal, rad; that of the friction cone, atan μ, if absent. Zero is
     /// the paper's rule that pushes are perpendicular to the surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = STEEPEST_PUSH_RAD))]
     pub allowed_angle_rad: Option<f64>,
 }
 
@@ -42,6 +44,7 @@ pub enum SurfaceShape {
         /// Direction of the outward normal at the middle of the arc, rad.
         direction_rad: f64,
         /// Largest angle to either side that may be used, rad.
+        #[schemars(range(max = std::f64::consts::PI), extend("exclusiveMinimum" = 0))]
         half_angle_rad: f64,
     },
 }

@@ -33,16 +33,20 @@ pub enum SecondFactor {
 #[serde(default, deny_unknown_fields)]
 pub struct FlipOptions {
     /// Clearance of the virtual object movement between its ends, m: the object leaves a contact by it along the normal.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub margin_m: f64,
     /// Clearance required of the flip, m, less than `margin_m`; it rises from 0 at a contact while the object leaves it.
+    #[schemars(range(min = 0.0))]
     pub least_clearance_m: f64,
     /// Overlap of tool and object allowed at a contact, m, for rounding and for how contacts were measured.
+    #[schemars(range(min = FINEST_TOLERANCE_M))]
     pub contact_tolerance_m: f64,
     /// Sense in which to go round the tool.
     pub way_round: WayRound,
     /// How k2 is chosen.
     pub k2: SecondFactor,
     /// Largest k2 tried, at least 1.
+    #[schemars(range(min = 1.0, max = MOST_K2))]
     pub largest_k2: f64,
     /// Whether the tool's own way x^t turns and grows with the displacement between the contacts.
     pub scale_with_displacement: bool,

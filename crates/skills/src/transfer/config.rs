@@ -12,13 +12,17 @@ use crate::tool_flipping::FlipOptions;
 #[serde(default, deny_unknown_fields)]
 pub struct TransferConfig {
     /// Distance of the object from obstacles, m: the paper's safe margin.
+    #[schemars(range(min = 0.0, max = LARGEST_MARGIN_M))]
     pub object_margin_m: f64,
     /// Distance of the tool from obstacles, m.
+    #[schemars(range(min = 0.0, max = LARGEST_MARGIN_M))]
     pub tool_margin_m: f64,
     /// What is added to both when the plan is made, m: the plan is not followed exactly.
+    #[schemars(range(min = 0.0, max = LARGEST_MARGIN_M))]
     pub slack_m: f64,
     /// Gap between tool and object at the end of an approach or flip, m, which the push closes: what a camera may be off
     /// by in a direction in which nothing was touched yet.
+    #[schemars(range(min = 0.0, max = LARGEST_MARGIN_M))]
     pub approach_gap_m: f64,
     /// What keeps the generalized path out of the obstacles.
     pub corridor_filter: CorridorFilterConfig,
@@ -76,16 +80,21 @@ impl TransferConfig {
 #[serde(default, deny_unknown_fields)]
 pub struct SearchConfig {
     /// Side of a cell, m.
+    #[schemars(range(min = 1e-5, max = 1.0))]
     pub cell_m: f64,
     /// Places on each surface that may be held, 1 to 21.
     pub places: usize,
     /// Cost per length and squared distance from the reference path, 1/m².
+    #[schemars(range(min = 0.0))]
     pub deviation_per_m2: f64,
     /// Cost of a change of surface, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub switch_cost_m: f64,
     /// Cost per distance of a hold from the middle of its surface.
+    #[schemars(range(min = 0.0))]
     pub off_center: f64,
     /// Cost per distance that the tool goes round the object in a change of surface.
+    #[schemars(range(min = 0.0))]
     pub flip: f64,
 }
 

@@ -29,8 +29,10 @@ pub struct DmpConfig {
     /// Number n of bases, 2 to 1000.
     pub bases: usize,
     /// Stiffness α of Eq. (1), without unit, 1e-6 to 1e4; β = α/4, so that the attractor is critically damped.
+    #[schemars(range(min = 1e-6, max = 1e4))]
     pub alpha: f64,
     /// Decay γ of Eq. (3), without unit, 0.1 to 20; the phase ends at e^{−γ}.
+    #[schemars(range(min = 0.1, max = 20.0))]
     pub gamma: f64,
     /// Regression that learns the weights.
     pub regression: RegressionConfig,

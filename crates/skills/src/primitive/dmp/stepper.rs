@@ -12,7 +12,7 @@ use crate::primitive::rollout::check_vector;
 use crate::time_law::{MinimumJerkTransfer, PathState};
 
 /// Least part of the duration that a changed transfer takes, so that a late change of goal stays gentle.
-const SHORTEST_TRANSFER: f64 = 0.25;
+pub(in crate::primitive) const SHORTEST_TRANSFER: f64 = 0.25;
 /// Steps over the duration for which the closed form of the attractor neither underflows nor overflows.
 const STEP_RATIOS: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
 

@@ -29,8 +29,10 @@ pub struct GeneralizingConfig {
     /// How they are chosen from.
     pub selection: Selection,
     /// Shrinkage of [`Rule::Linear`] to no dependence, relative to the spread of the shown displacements, 1e-6 to 1e6.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub shrinkage: f64,
     /// Width of the neighborhood of [`Rule::Local`] in spreads of the shown displacements, 0.01 to 100.
+    #[schemars(range(min = 0.01, max = 100.0))]
     pub neighborhood: f64,
 }
 

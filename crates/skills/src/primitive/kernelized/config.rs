@@ -12,11 +12,14 @@ pub struct KernelizedConfig {
     pub references: usize,
     /// Length l of the Gaussian kernel in parts of the duration, 0.005 to 1: shorter features are smoothed away. At least
     /// half the distance of two reference points, so that the kernel bridges them.
+    #[schemars(range(max = 1.0))]
     pub length_scale: f64,
     /// Regularization λ of the paper, 1e-6 to 1e6: at 1 a reference is trusted as far as its covariance tells.
+    #[schemars(range(min = 1e-6, max = 1e6))]
     pub lambda: f64,
     /// Least standard deviation of a reference, relative to the size of the motion's shape, 1e-5 to 1; the whole of it
     /// if there is one demonstration only. Raise it to have via points bend the motion over more than a reference or two.
+    #[schemars(range(min = 1e-5, max = 1.0))]
     pub deviation: f64,
 }
 

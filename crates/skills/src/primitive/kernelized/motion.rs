@@ -27,6 +27,15 @@ pub struct ViaPoint {
     pub deviation: f64,
 }
 
+impl ViaPoint {
+    /// Asks to pass `position` (d values, unit and frame of the demonstrations) exactly, at any velocity, at `progress` = t/T
+    /// in (0, 1).
+    #[must_use]
+    pub fn exact(progress: f64, position: DVector<f64>) -> Self {
+        Self { progress, position, velocity: None, deviation: 0.0 }
+    }
+}
+
 /// Motion of a [`Kernelized`] primitive for one request.
 #[derive(Debug, Clone)]
 pub struct KernelizedMotion<'a> {

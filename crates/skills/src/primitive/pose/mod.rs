@@ -7,6 +7,7 @@
 //! about a turn that goes from start to goal the way round that was shown: q = e^ρ·q_b(t/T). The residual ρ is unwrapped
 //! along the demonstration and small, so that its three coordinates are those of an ordinary DMP, linear and decoupled.
 
+mod correction;
 mod motion;
 pub(crate) mod rotation;
 mod saved;
@@ -144,3 +145,7 @@ fn table(shown: &PoseTrajectory, residuals: &[Vector3<f64>]) -> Result<Trajector
 #[cfg(test)]
 #[path = "pose_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "changing_tests.rs"]
+mod changing_tests;

@@ -8,8 +8,8 @@ use crate::error::SkillError;
 pub enum ConstraintError {
     /// More of a demonstration lies outside its corridor than noise explains: the bounds are wrong.
     #[error(
-        "separate skill: {percent:.1} % of demonstration {demonstration} lies more than {tolerance} outside in \
-         coordinate {coordinate}, furthest row {row} at {time_s} s by {outside}; expected at most 2 %; widen the \
+        "separate skill: {percent:.1} % of demonstration {demonstration} lies more than {tolerance:.4} outside in \
+         coordinate {coordinate}, furthest row {row} at {time_s:.3} s by {outside:.4}; expected at most 2 %; widen the \
          bounds, shift their time, or state more noise"
     )]
     OutsideCorridor {

@@ -27,6 +27,7 @@ pub struct Ell {
     /// Usable length of the arm's upper side, m.
     pub top_length_m: f64,
     /// Usable length of the stem's left side, m; 0 for none.
+    #[schemars(range(min = 0.0))]
     pub stem_length_m: f64,
 }
 

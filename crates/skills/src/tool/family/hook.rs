@@ -25,12 +25,14 @@ pub struct Hook {
     /// Inner length of the prong, m.
     pub prong_m: f64,
     /// Inner angle between bar and prong, rad: π/3 (the mouth narrows) to π (the prong prolongs the bar).
+    #[schemars(range(min = std::f64::consts::FRAC_PI_3, max = std::f64::consts::PI))]
     pub opening_angle_rad: f64,
     /// Thickness of shank, bar and prong, m.
     pub thickness_m: f64,
     /// Radius of the disc that the hook is made for, m.
     pub object_radius_m: f64,
     /// Ends of each surface that are left out at outer corners, m.
+    #[schemars(range(min = 0.0))]
     pub edge_margin_m: f64,
 }
 

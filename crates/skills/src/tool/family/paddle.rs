@@ -29,6 +29,7 @@ pub struct Paddle {
     /// Form of the face.
     pub face: PaddleFace,
     /// Ends of each surface that are left out, m.
+    #[schemars(range(min = 0.0))]
     pub edge_margin_m: f64,
 }
 
@@ -42,11 +43,13 @@ pub enum PaddleFace {
     /// Bulging: a disc leaves it.
     Convex {
         /// Radius of the bulge, m; the width is at most 1.9 of it.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
     /// Hollow: a smaller disc stays in it.
     Concave {
         /// Radius of the hollow, m; the width is at most 1.9 of it.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius_m: f64,
     },
 }

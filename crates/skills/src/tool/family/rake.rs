@@ -30,6 +30,7 @@ pub struct Rake {
     /// Radius of the disc that the rake is made for, m.
     pub object_radius_m: f64,
     /// Ends of each surface that are left out at outer corners and tips, m.
+    #[schemars(range(min = 0.0))]
     pub edge_margin_m: f64,
 }
 

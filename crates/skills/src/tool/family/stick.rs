@@ -20,6 +20,7 @@ pub struct Stick {
     /// Radius of the head, m; at most half the width.
     pub head_radius_m: f64,
     /// Largest usable angle on the head to either side of +y, rad.
+    #[schemars(range(min = SMALLEST_ANGLE_RAD, max = std::f64::consts::FRAC_PI_2))]
     pub head_half_angle_rad: f64,
     /// Usable length of the left side, from the middle of the head to the rear, m.
     pub side_length_m: f64,

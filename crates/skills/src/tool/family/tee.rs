@@ -25,6 +25,7 @@ pub struct Tee {
     /// Radius of the disc that must fit into the inner corners, m.
     pub object_radius_m: f64,
     /// Ends of each surface that are left out at outer corners, m.
+    #[schemars(range(min = 0.0))]
     pub edge_margin_m: f64,
 }
 
