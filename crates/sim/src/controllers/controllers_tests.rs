@@ -10,6 +10,7 @@ use crate::random::{Purpose, stream};
 /// Rounding of sums of torques of up to 1000 N m.
 const ROUNDING_NM: f64 = 1e-9;
 const ROTORS: [f64; 7] = [0.195, 0.195, 0.195, 0.195, 0.074, 0.074, 0.074];
+const PLANAR_ROTORS: [f64; 3] = [0.01; 3];
 const READY: [f64; 7] = [0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785];
 
 fn panda(rotors: &[f64; 7]) -> Manipulator {
@@ -241,4 +242,38 @@ fn gains_that_are_no_gains_are_named() {
         field(ControllerConfig::JointPd(JointPdConfig { stiffness_nm_per_rad: vec![], ..pd() })),
         "joint_pd.stiffness_nm_per_rad"
     );
+}
+
+#[test]
+fn joint_pd_without_gains_holds_the_shipped_arms_at_nearly_twice_their_control_period() {
+    let planar = {
+        let text = include_str!("../../../../assets/robots/planar_3r.urdf");
+        let mut arm = Manipulator::from_urdf_str(text).expect("valid");
+        // as the shipped pushes state it
+        arm.set_rotor_inertia(&PLANAR_ROTORS).expect("three joints");
+        arm
+    };
+    // stretched out, folded, and in between
+    let planar_postures = [[0.0, 0.0, 0.0], [0.5, 1.2, 0.8], [0.3, 2.4, -1.5]].map(|q| DVector::from_column_slice(&q));
+    let of_panda = [ready(), ready() * 0.5];
+    for (arm, postures) in [(planar, &planar_postures[..]), (panda(&ROTORS), &of_panda[..])] {
+        let mut controller = ControllerConfig::JointPd(JointPdConfig::default())
+            .build(arm.joint_count())
+            .expect("one number serves all");
+        let mut workspace = arm.workspace();
+        for q in postures {
+            controller.check_stability(&mut workspace, q, 0.0019).expect("stable");
+            let feedback = controller.feedback(&mut workspace, q).expect("its joints");
+            assert!(feedback.stiffness.iter().all(|stiffness| *stiffness == 600.0));
+        }
+        let still = DVector::zeros(arm.joint_count());
+        let state = JointState { q: postures[0].clone(), dq: still.clone() };
+        let reference = JointReference { q: postures[0].clone(), dq: still.clone(), ddq: still.clone() };
+        let mut torque = still.clone();
+        controller.torque(&mut workspace, &state, &reference, &mut torque).expect("its joints");
+        let mut gravity = still;
+        workspace.set_state(&state.q, &state.dq).expect("its joints");
+        workspace.gravity_into(&mut gravity);
+        assert_eq!(torque, gravity, "where it should be, it holds the arm's weight and nothing else");
+    }
 }

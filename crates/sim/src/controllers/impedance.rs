@@ -27,6 +27,7 @@ const DAMPING: &str = "damping_nm_s_per_rad";
 pub struct ImpedanceConfig {
     /// kₑ: rate at which a position error fades, 1/s.
     #[serde(default = "paper_error_gain")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub error_gain_per_s: f64,
     /// ξ of each joint, N m s/rad; one number serves all joints.
     #[serde(default = "paper_damping")]

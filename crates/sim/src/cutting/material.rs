@@ -11,37 +11,50 @@ use skills::field::{FieldError, not_negative, positive, within};
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// Fracture energy R of a new cut surface at the reference speed, J/m², which is the force per length of edge, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub toughness_j_per_m2: f64,
     /// Bursting tension of the skin, N/m; 0 for a food without skin.
+    #[schemars(range(min = 0.0))]
     pub skin_tension_n_per_m: f64,
     /// Shear stress τ between the flanks of the blade and the food, Pa.
+    #[schemars(range(min = 0.0))]
     pub flank_shear_pa: f64,
     /// Young's modulus E, Pa.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub youngs_modulus_pa: f64,
     /// Force per length of edge and depth of the dent before the edge, N/m².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub indentation_stiffness_pa: f64,
     /// Exponent n of the toughness in the speed of cutting: R (v/v₀)ⁿ; 0.1 for most foods, about 0.5 for cheese.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rate_exponent: f64,
     /// Speed v₀ at which the toughness was measured, m/s.
     #[serde(default = "default_reference_speed")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub reference_speed_m_per_s: f64,
     /// Share s of the slice-push ratio that lowers the force, from 0 (slicing does not help) to 1 (frictionless law).
     #[serde(default = "default_slice_efficiency")]
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub slice_efficiency: f64,
     /// Resistance to a new cut as a multiple of that to a running one, for a sharp edge.
     #[serde(default = "default_initiation_sharp")]
+    #[schemars(range(min = 1.0, max = 10.0))]
     pub initiation_factor_sharp: f64,
     /// The same for a dull edge.
     #[serde(default = "default_initiation_dull")]
+    #[schemars(range(min = 1.0, max = 10.0))]
     pub initiation_factor_dull: f64,
     /// Compressive stress σ at which the food yields under a dull edge, Pa.
+    #[schemars(range(min = 0.0))]
     pub yield_stress_pa: f64,
     /// Depth of a cut, as a share of the section's height, at which a brittle food breaks at once; none for a tough food.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub brittle_depth_share: Option<f64>,
     /// Coefficient of friction on the board.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub board_friction: f64,
     /// Density, kg/m³.
+    #[schemars(range(min = DENSITIES[0], max = DENSITIES[1]))]
     pub density_kg_per_m3: f64,
     /// Where each number comes from.
     pub basis: MaterialBasis,

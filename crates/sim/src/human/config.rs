@@ -8,36 +8,52 @@ use skills::field::{FieldError, not_negative, positive, within};
 #[serde(default, deny_unknown_fields)]
 pub struct HumanConfig {
     /// Delay from seeing to acting, s.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub reaction_s: f64,
     /// Correction speed per seen error, 1/s.
+    #[schemars(range(min = 0.0))]
     pub gain_per_s: f64,
     /// Speed of the hand while it pushes, m/s.
+    #[schemars(range(min = SLOWEST_M_PER_S, max = FASTEST_M_PER_S))]
     pub push_speed_m_per_s: f64,
     /// Speed of the hand while it approaches a contact, m/s.
+    #[schemars(range(min = SLOWEST_M_PER_S, max = FASTEST_M_PER_S))]
     pub approach_speed_m_per_s: f64,
     /// Speed of the hand through free space, m/s.
+    #[schemars(range(min = SLOWEST_M_PER_S, max = FASTEST_M_PER_S))]
     pub free_speed_m_per_s: f64,
     /// Clearance that the hand keeps while it goes round the object, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub detour_m: f64,
     /// Noise of the hand's velocity per speed (signal-dependent noise; Harris and Wolpert 1998).
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub velocity_noise: f64,
     /// Constant noise of the hand's velocity, m/s.
+    #[schemars(range(min = 0.0))]
     pub constant_noise_m_per_s: f64,
     /// Root mean square of the tremor at 8–12 Hz, m (Riviere, Rader and Khosla 1997: 0.05–0.15 mm in fine work).
+    #[schemars(range(min = 0.0))]
     pub tremor_m: f64,
     /// Median pause at a change of contact, s.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub pause_s: f64,
     /// Offset of the object from the middle of the surface at which the human lets go and takes hold again, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub recontact_m: f64,
     /// Coefficient of variation between trials of speeds and gains.
+    #[schemars(range(min = 0.0, max = 0.5))]
     pub trial_variation: f64,
     /// Mass of the hand, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub hand_mass_kg: f64,
     /// Stiffness of the hand, N/m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub hand_stiffness_n_per_m: f64,
     /// A trial that leaves the object farther than this from where it was wanted has failed, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub satisfied_m: f64,
     /// A trial that takes longer has failed, s.
+    #[schemars(range(min = 0.1, max = LONGEST_PATIENCE_S))]
     pub patience_s: f64,
 }
 

@@ -15,6 +15,7 @@ pub struct WorldConfig {
     pub map: MapBounds,
     /// Gravity into the table, m/s².
     #[serde(default = "standard_gravity")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub gravity_m_per_s2: f64,
     /// Fixed obstacles.
     #[serde(default)]
@@ -91,8 +92,10 @@ pub struct ObjectConfig {
     /// Outline in its own frame.
     pub shape: Outline,
     /// Mass, kg.
+    #[schemars(range(max = LARGEST_MASS_KG), extend("exclusiveMinimum" = 0))]
     pub mass_kg: f64,
     /// Coefficient of friction between the object and the table.
+    #[schemars(range(min = 0.0, max = 5.0))]
     pub table_friction: f64,
     /// Law of friction on the table.
     #[serde(default)]
@@ -102,6 +105,9 @@ pub struct ObjectConfig {
 fn default_object_name() -> String {
     "object".into()
 }
+
+/// Largest mass of what is pushed over a table, kg.
+const LARGEST_MASS_KG: f64 = 1000.0;
 
 impl WorldConfig {
     /// Checks bounds and obstacles.
@@ -143,6 +149,7 @@ impl ObjectConfig {
     pub fn validate(&self) -> Result<(), FieldError> {
         self.shape.validate().map_err(|error| error.within("shape"))?;
         positive("mass_kg", self.mass_kg)?;
+        within("mass_kg", self.mass_kg, 0.0, LARGEST_MASS_KG)?;
         within("table_friction", self.table_friction, 0.0, 5.0)?;
         self.support.validate().map_err(|error| error.within("support"))
     }
@@ -156,14 +163,18 @@ const WHOLE_STEPS: f64 = 1e-6;
 #[serde(default, deny_unknown_fields)]
 pub struct EngineConfig {
     /// Time step of the physics, s; the control period is a whole multiple of it.
+    #[schemars(range(min = 1e-6, max = 0.01))]
     pub time_step_s: f64,
     /// Time between two torques of the controller, s.
+    #[schemars(range(max = 0.1))]
     pub control_period_s: f64,
     /// Substeps of the contact solver within a time step.
     pub substeps: usize,
     /// Natural frequency of contacts, Hz: a contact under load gives way by the load's acceleration over (2πf)².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub contact_frequency_hz: f64,
     /// Size of the smallest features, m: scales the engine's tolerances.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_unit_m: f64,
 }
 

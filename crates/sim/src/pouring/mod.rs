@@ -21,6 +21,6 @@ pub use filling::{FillAmount, Filling, PACKING_FRACTION, fill};
 pub use grains::{GrainBatch, GrainConfig, GrainShape, Grains};
 pub use monitor::{Counts, LandingSpread, MonitorConfig, Place, PourMonitor};
 pub use process::{
-    Grip, LipReport, Masses, PourGauge, PourReading, PourResult, PourSetup, PouringProcess, TableConfig,
+    ArmClearance, Grip, LipReport, Masses, PourGauge, PourReading, PourResult, PourSetup, PouringProcess, TableConfig,
     VesselClearance, container_drawing, grain_description, held_container,
 };

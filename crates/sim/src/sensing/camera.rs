@@ -4,31 +4,42 @@
 //! 0.3–0.5 mm, bias 1–2 mm, 30 Hz, 60–90 ms latency (Nguyen, Izadi and Lovell 2012, for the noise model).
 
 use std::collections::VecDeque;
+use std::f64::consts::PI;
 
 use nalgebra::{Isometry2, Vector2};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal, StandardNormal};
 use serde::{Deserialize, Serialize};
-use skills::field::{FieldError, not_negative, within};
+use skills::field::{FieldError, within};
+
+/// Largest standard deviation of a place that a camera tells, m: beyond it, it sees nothing on a table.
+const LARGEST_ERROR_M: f64 = 0.1;
 
 /// Frame rate, latency and errors of a camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
     /// Frames per second, Hz.
+    #[schemars(range(min = 0.1, max = 10_000.0))]
     pub rate_hz: f64,
     /// Time from exposure to arrival, s.
+    #[schemars(range(min = 0.0, max = 10.0))]
     pub latency_s: f64,
     /// Standard deviation of the latency, s.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub jitter_s: f64,
     /// Standard deviation of a position in one frame, per axis, m.
+    #[schemars(range(min = 0.0, max = LARGEST_ERROR_M))]
     pub noise_m: f64,
     /// Standard deviation of the constant error of a run, per axis, m.
+    #[schemars(range(min = 0.0, max = LARGEST_ERROR_M))]
     pub bias_m: f64,
     /// Standard deviation of an angle in one frame, rad.
+    #[schemars(range(min = 0.0, max = PI))]
     pub angle_noise_rad: f64,
     /// Share of frames in which the object is not found.
+    #[schemars(range(min = 0.0, max = 0.99))]
     pub drop_out: f64,
 }
 
@@ -69,9 +80,9 @@ impl CameraConfig {
         within("rate_hz", self.rate_hz, 0.1, 10_000.0)?;
         within("latency_s", self.latency_s, 0.0, 10.0)?;
         within("jitter_s", self.jitter_s, 0.0, 1.0)?;
-        not_negative("noise_m", self.noise_m)?;
-        not_negative("bias_m", self.bias_m)?;
-        not_negative("angle_noise_rad", self.angle_noise_rad)?;
+        within("noise_m", self.noise_m, 0.0, LARGEST_ERROR_M)?;
+        within("bias_m", self.bias_m, 0.0, LARGEST_ERROR_M)?;
+        within("angle_noise_rad", self.angle_noise_rad, 0.0, PI)?;
         within("drop_out", self.drop_out, 0.0, 0.99)
     }
 }
@@ -167,6 +178,16 @@ mod tests {
         let mut camera = Camera::new(&CameraConfig::perfect(), ChaCha8Rng::seed_from_u64(1));
         let there = Isometry2::new(Vector2::new(0.1, 0.2), 0.3);
         approx::assert_relative_eq!(camera.look(0.0, &there).unwrap().world_from_object, there, epsilon = 1e-15);
+    }
+
+    #[test]
+    fn errors_as_large_as_a_table_are_refused_by_name() {
+        let refused = |config: CameraConfig| config.validate().err().map(|error| error.field);
+        assert_eq!(refused(CameraConfig { noise_m: 0.05, ..CameraConfig::default() }), None);
+        assert_eq!(refused(CameraConfig { noise_m: 10.0, ..CameraConfig::default() }).as_deref(), Some("noise_m"));
+        assert_eq!(refused(CameraConfig { bias_m: 1e300, ..CameraConfig::default() }).as_deref(), Some("bias_m"));
+        let turned = CameraConfig { angle_noise_rad: 7.0, ..CameraConfig::default() };
+        assert_eq!(refused(turned).as_deref(), Some("angle_noise_rad"));
     }
 
     #[test]

@@ -8,8 +8,10 @@ use skills::field::{FieldError, not_negative, positive};
 #[serde(default, deny_unknown_fields)]
 pub struct JointFriction {
     /// Coulomb friction, N m (N): the largest torque with which the joint resists motion, also at rest.
+    #[schemars(range(min = 0.0))]
     pub coulomb_nm: f64,
     /// Viscous friction, N m s/rad (N s/m).
+    #[schemars(range(min = 0.0))]
     pub viscous_nm_s_per_rad: f64,
 }
 
@@ -21,6 +23,7 @@ pub struct ArmConfig {
     pub friction: Vec<JointFriction>,
     /// Largest change of a motor's torque, N m/s; any if absent. A Franka arm takes 1000 N m/s.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub torque_rate_limit_nm_per_s: Option<f64>,
     /// Whether the motors give any torque, whatever the arm's description says they can.
     pub ideal_motors: bool,

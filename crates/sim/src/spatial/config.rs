@@ -15,14 +15,18 @@ const WHOLE_STEPS: f64 = 1e-6;
 #[serde(default, deny_unknown_fields)]
 pub struct EngineConfig {
     /// Time step of the physics, s; the control period is a whole multiple of it.
+    #[schemars(range(min = 1e-6, max = 0.01))]
     pub time_step_s: f64,
     /// Time between two torques of the controller, s.
+    #[schemars(range(max = 0.1))]
     pub control_period_s: f64,
     /// Substeps of the solver within a time step: the arm's equations are evaluated anew in each.
     pub substeps: usize,
     /// Natural frequency of contacts, Hz: a contact under load gives way by the load's acceleration over (2πf)².
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub contact_frequency_hz: f64,
     /// Size of the smallest features, m: scales the engine's tolerances.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_unit_m: f64,
     /// Whether contacts that barely moved keep their points: quieter piles of grains, but stale normals on round tools.
     pub contact_recycling: bool,

@@ -19,12 +19,16 @@ const FARTHEST_PAYLOAD_M: f64 = 10.0;
 #[serde(default, deny_unknown_fields)]
 pub struct ModelMismatch {
     /// Share by which the model's masses and inertias are all too large; negative if too small.
+    #[schemars(range(min = -0.9, max = 10.0))]
     pub inertia_share: f64,
     /// Largest share by which each joint's body is wrong besides, drawn for each, all shares up to it equally likely.
+    #[schemars(range(min = 0.0, max = 0.9))]
     pub inertia_scatter_share: f64,
     /// Mass in the hand that the model lacks, kg.
+    #[schemars(range(min = 0.0, max = HEAVIEST_PAYLOAD_KG))]
     pub payload_kg: f64,
     /// Where that mass is, as a point in the tool's frame, m.
+    #[schemars(inner(range(min = -FARTHEST_PAYLOAD_M, max = FARTHEST_PAYLOAD_M)))]
     pub payload_at_m: [f64; 3],
 }
 

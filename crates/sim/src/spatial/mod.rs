@@ -31,7 +31,7 @@ pub use drawing::{Drawing, DrawnShape, Rgba, TriangleMesh};
 pub use episode::{Episode, EpisodeSample};
 pub use mismatch::ModelMismatch;
 pub use observer::{
-    ArmDescription, BodyDrawing, GrainDescription, LinkDrawing, Observer, Sample, SceneDescription, Series,
+    ArmDescription, BodyDrawing, GrainDescription, LinkDrawing, Observer, Sample, SceneDescription, Series, Target,
 };
 pub use process::{News, NoProcess, Process, Step, wrench_of};
 pub use reach::{EachLook, OutOfReach, check_reach, check_reach_along, out_of_reach};

@@ -19,6 +19,10 @@ pub struct SceneDescription {
     pub grains: Option<GrainDescription>,
     /// Curves that the task adds to a sample's `series`, in their order.
     pub series: Vec<Series>,
+    /// Titles of those of the series' plots that matter most; the first ones if empty.
+    pub main_plots: Vec<String>,
+    /// Places that the tool is wanted at.
+    pub targets_world: Vec<Target>,
     /// Names of the plan's actions in their order; a sample's `phase` is an index into them.
     pub phases: Vec<String>,
     /// Planned path of the tool's origin, world frame.
@@ -76,6 +80,15 @@ pub struct Series {
     pub plot: String,
     /// Its own name in the legend, with the unit.
     pub name: String,
+}
+
+/// A place that the tool is wanted at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its name, its own within a scene.
+    pub name: String,
+    /// The frame that the tool's is wanted in.
+    pub world_from_target: Isometry3<f64>,
 }
 
 /// State of a run at one control instant.

@@ -6,6 +6,7 @@ mod bookkeeping;
 mod contacts;
 mod containers;
 mod heap;
+mod scaling;
 mod scene;
 mod settings;
 mod silo;

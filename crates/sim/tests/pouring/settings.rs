@@ -9,7 +9,7 @@ use super::scene::{Scene, container, filling, straight, world};
 use super::silo::{discharge_per_s, mankoc_per_s};
 
 /// Time that this thread has had a processor, s; other programs on the machine do not count.
-fn cpu_s() -> f64 {
+pub fn cpu_s() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").expect("a Linux machine");
     text.split(' ').next().and_then(|first| first.parse::<f64>().ok()).expect("nanoseconds") * 1e-9
 }

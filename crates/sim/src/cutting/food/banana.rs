@@ -17,12 +17,16 @@ use crate::cutting::geometry::{ConvexCell, GeometryError};
 #[serde(deny_unknown_fields)]
 pub struct Banana {
     /// Diameter between the ends, m.
+    #[schemars(range(min = 1e-3, max = 1.0))]
     pub diameter_m: f64,
     /// Length of the center line, m.
+    #[schemars(range(min = 1e-3, max = 1.0))]
     pub length_m: f64,
     /// Radius of curvature of the center line, m.
+    #[schemars(range(max = 100.0))]
     pub curvature_radius_m: f64,
     /// Length of each rounded end, m.
+    #[schemars(range(min = 1e-3))]
     pub end_length_m: f64,
     /// Diameter of the flat tips, m.
     pub tip_diameter_m: f64,

@@ -8,8 +8,10 @@ use skills::field::{FieldError, within};
 #[serde(default, deny_unknown_fields)]
 pub struct FoodLook {
     /// Color of the skin or crust.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub skin_rgb: [f64; 3],
     /// Color of the faces of cuts.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub flesh_rgb: [f64; 3],
 }
 

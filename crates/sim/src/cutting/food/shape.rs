@@ -32,10 +32,13 @@ pub enum Shape {
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Extent along x, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub length_m: f64,
     /// Extent along y, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub width_m: f64,
     /// Extent along z, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub height_m: f64,
 }
 
@@ -44,8 +47,10 @@ pub struct Block {
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Diameter, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub diameter_m: f64,
     /// Length of the axis, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub length_m: f64,
     /// Number of flat sides.
     #[serde(default = "default_sides")]
@@ -57,10 +62,13 @@ pub struct Cylinder {
 #[serde(deny_unknown_fields)]
 pub struct Disc {
     /// Diameter, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub diameter_m: f64,
     /// Thickness, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub thickness_m: f64,
     /// Radius of the rounding of both edges, m: at most half the thickness.
+    #[schemars(range(min = 0.0))]
     pub edge_radius_m: f64,
     /// Number of flat sides.
     #[serde(default = "default_sides")]
@@ -72,10 +80,13 @@ pub struct Disc {
 #[serde(deny_unknown_fields)]
 pub struct Ellipsoid {
     /// Diameter along x, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub length_m: f64,
     /// Diameter along y, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub width_m: f64,
     /// Diameter along z, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub height_m: f64,
     /// Number of flat sides about the axis x; half as many from pole to pole.
     #[serde(default = "default_sides")]
@@ -87,10 +98,13 @@ pub struct Ellipsoid {
 #[serde(deny_unknown_fields)]
 pub struct Berry {
     /// Greatest diameter, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub diameter_m: f64,
     /// Length from stem to tip, m.
+    #[schemars(range(min = LENGTHS_M[0], max = LENGTHS_M[1]))]
     pub length_m: f64,
     /// Length of the half ellipsoid at the stem, m.
+    #[schemars(range(min = LENGTHS_M[0]))]
     pub shoulder_m: f64,
     /// Number of flat sides about the axis.
     #[serde(default = "default_sides")]

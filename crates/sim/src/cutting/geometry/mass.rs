@@ -15,6 +15,29 @@ pub struct MassProperties {
     pub inertia_kg_m2: Matrix3<f64>,
 }
 
+impl MassProperties {
+    /// Least mass that the free body shows at a point of its frame in any direction, kg: 1/λ_max of the mobility
+    /// 1/m − r̂ I⁻¹ r̂ with r̂ v = r × v, as what is pushed beside its center of mass turns too (Khatib, "A unified approach for motion and
+    /// force control of robot manipulators", 1987). That of the whole mass if its inertia cannot be inverted.
+    #[must_use]
+    pub fn shown_at(&self, point: &Point3<f64>) -> f64 {
+        self.mobility_at(point).map_or(self.mass_kg, |mobility| 1.0 / mobility.symmetric_eigenvalues().max())
+    }
+
+    /// The same in one direction, a vector of length one.
+    #[must_use]
+    pub fn shown_along(&self, point: &Point3<f64>, direction: &Vector3<f64>) -> f64 {
+        self.mobility_at(point).map_or(self.mass_kg, |mobility| 1.0 / direction.dot(&(mobility * direction)))
+    }
+
+    /// Acceleration of a point by a force on it, 1/kg; none if the inertia cannot be inverted.
+    fn mobility_at(&self, point: &Point3<f64>) -> Option<Matrix3<f64>> {
+        let arm = (point - self.center).cross_matrix();
+        let inverse = self.inertia_kg_m2.try_inverse()?;
+        Some(Matrix3::identity() / self.mass_kg - arm * inverse * arm)
+    }
+}
+
 /// Integrals of 1, x and x xᵀ over a body, where x is measured from a point of choice. One near the body keeps rounding small.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moments {
@@ -94,5 +117,37 @@ impl ConvexCell {
     /// A point of the cell to measure from.
     pub(super) fn anchor(&self) -> Point3<f64> {
         self.vertices.first().copied().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    fn body(inertia: [f64; 3]) -> MassProperties {
+        let inertia_kg_m2 = Matrix3::from_diagonal(&Vector3::from(inertia));
+        MassProperties { mass_kg: 2.0, center: Point3::new(0.5, 0.0, 0.0), inertia_kg_m2 }
+    }
+
+    #[test]
+    fn a_ball_shows_two_sevenths_of_its_mass_on_its_surface() {
+        // 2/5 m r² with r = 0.1
+        let ball = body([0.008; 3]);
+        for at in [[0.6, 0.0, 0.0], [0.5, -0.1, 0.0], [0.5, 0.06, 0.08]] {
+            assert_relative_eq!(ball.shown_at(&Point3::from(at)), 2.0 * 2.0 / 7.0, max_relative = 1e-12);
+        }
+        assert_relative_eq!(ball.shown_at(&ball.center), 2.0, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_rod_shows_a_quarter_of_its_mass_at_its_end() {
+        // m L²/12 with L = 0.6, and hardly any about its axis, along which nothing turns it
+        let rod = body([1e-9, 0.06, 0.06]);
+        assert_relative_eq!(rod.shown_at(&Point3::new(0.8, 0.0, 0.0)), 0.5, max_relative = 1e-12);
+        // along itself it shows its whole mass
+        let end = Point3::new(0.8, 0.0, 0.0);
+        assert_relative_eq!(rod.shown_along(&end, &Vector3::x()), rod.mass_kg, max_relative = 1e-12);
+        assert_relative_eq!(rod.shown_along(&end, &Vector3::y()), 0.5, max_relative = 1e-12);
     }
 }

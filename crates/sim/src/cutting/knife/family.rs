@@ -30,14 +30,19 @@ pub enum BladeFamily {
 #[serde(deny_unknown_fields)]
 pub struct BladeShape {
     /// Length of the edge along x, m.
+    #[schemars(range(min = 0.02, max = 1.0))]
     pub length_m: f64,
     /// Height from the edge to the spine at the heel, m.
+    #[schemars(range(min = 0.005, max = 0.3))]
     pub height_m: f64,
     /// Thickness of the plate, m.
+    #[schemars(range(min = 0.0002, max = 0.02))]
     pub spine_thickness_m: f64,
     /// Angle between the two faces that meet at the edge, rad.
+    #[schemars(range(min = 0.05, max = FRAC_PI_2))]
     pub bevel_angle_rad: f64,
     /// Radius of the edge, m: 2 to 10 µm is sharp, 50 µm dull.
+    #[schemars(range(min = 0.0))]
     pub edge_radius_m: f64,
     /// Radius of the curved front of the edge, m; none for a straight edge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -51,8 +56,10 @@ pub struct Serration {
     /// The blade without its teeth.
     pub blade: BladeShape,
     /// Distance between teeth, m.
+    #[schemars(range(min = 0.0005))]
     pub tooth_pitch_m: f64,
     /// Depth of the hollows between them, m.
+    #[schemars(range(min = 0.0001))]
     pub tooth_depth_m: f64,
 }
 
@@ -61,12 +68,16 @@ pub struct Serration {
 #[serde(deny_unknown_fields)]
 pub struct WireShape {
     /// Length of the wire between the legs of the bow, m.
+    #[schemars(range(min = 0.02, max = 1.0))]
     pub length_m: f64,
     /// Diameter of the wire, m.
+    #[schemars(range(min = 0.0001, max = 0.003))]
     pub diameter_m: f64,
     /// Distance from the wire to the back of the bow, m.
+    #[schemars(range(max = 0.5))]
     pub bow_height_m: f64,
     /// Side of the square rod that the bow is bent of, m.
+    #[schemars(range(min = 0.001, max = 0.03))]
     pub rod_m: f64,
 }
 

@@ -18,8 +18,10 @@ pub struct KnifeFile {
     #[serde(default)]
     pub description: String,
     /// Coefficient of friction between the blade and food.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub friction: f64,
     /// Density of the blade, kg/m³.
+    #[schemars(range(min = 500.0, max = 20_000.0))]
     pub density_kg_per_m3: f64,
     /// Shape of the blade by its family.
     pub blade: BladeFamily,
@@ -32,12 +34,16 @@ pub struct KnifeFile {
 #[serde(deny_unknown_fields)]
 pub struct Handle {
     /// Length along the edge, m.
+    #[schemars(range(min = 0.02, max = 0.5))]
     pub length_m: f64,
     /// Height along the cutting direction, m.
+    #[schemars(range(min = 0.005, max = 0.1))]
     pub height_m: f64,
     /// Thickness along the normal of the blade, m.
+    #[schemars(range(min = 0.005, max = 0.1))]
     pub thickness_m: f64,
     /// Mass, kg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass_kg: f64,
 }
 

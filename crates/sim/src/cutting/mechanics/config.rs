@@ -8,18 +8,24 @@ use skills::field::{FieldError, finite, positive, within};
 #[serde(default, deny_unknown_fields)]
 pub struct CuttingConfig {
     /// Width of a column of the section and height of a cell of the recorded surface, m.
+    #[schemars(range(min = 1e-5, max = 0.005))]
     pub cell_m: f64,
     /// Mass that the arm shows at the knife, kg: stiffness and friction are bounded so that one step cannot reverse it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub effective_mass_kg: f64,
     /// Mass that a food which is free on its board shows along the edge, kg: it gives way as far as its elasticity and this
     /// mass say. Absent for a food that is held.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub free_food_kg: Option<f64>,
     /// How far the blade bends sideways before the food pushes back, m.
+    #[schemars(range(min = 0.0, max = 0.01))]
     pub blade_freedom_m: f64,
     /// Speed below which friction fades out, m/s.
+    #[schemars(range(min = 1e-6, max = 0.01))]
     pub creep_speed_m_per_s: f64,
     /// Longest dent that a board leaves, as a multiple of the edge's height above it.
+    #[schemars(range(min = 0.1, max = 10.0))]
     pub squeeze_ratio: f64,
 }
 

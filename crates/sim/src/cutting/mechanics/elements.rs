@@ -3,6 +3,7 @@
 use nalgebra::{Point2, Vector2};
 
 use super::config::Board;
+use super::flank_grip::{FlankFriction, FlankGrip};
 use super::front::Front;
 use super::giving::{Elasticity, Giving};
 use super::grid::SectionGrid;
@@ -37,17 +38,18 @@ pub(super) struct Opposing {
 }
 
 impl Opposing {
-    /// Adds a force of size `strength` against `direction` (of length one) at a point that moves along it with `speed`.
+    /// Adds a force of size `strength` against `direction` (of length one) at a point; `damping` (N s/m) is what a step sees of
+    /// it, by the speed of that point.
     pub(super) fn add(
         &mut self,
         strength: f64,
         direction: Vector2<f64>,
-        speed: f64,
+        damping: f64,
         at: Point2<f64>,
         motion: &EdgeMotion,
     ) {
         self.wrench.add(direction * -strength, at, motion);
-        self.damping += strength / speed;
+        self.damping += damping;
     }
 
     /// The sum, made smaller where its damping would take more than the momentum of `mass` in a step of `dt`.
@@ -164,11 +166,18 @@ impl EdgeZone {
         } else {
             self.friction * traction
         };
-        let speed = velocity.norm();
-        let strength = tangential * width * stretch * (speed / self.creep_speed).min(1.0);
-        element.damping = if strength > 0.0 { strength / slide.abs() } else { 0.0 };
+        let strength = tangential * width * stretch * (velocity.norm() / self.creep_speed).min(1.0);
+        let damping = if strength > 0.0 && slide != 0.0 { strength / slide.abs() } else { 0.0 };
+        let (strength, seen) = match &self.elasticity {
+            // what the spring holds now: a crack that stops from one step to the next is no blow
+            Some((elasticity, length)) => {
+                let before = std::mem::replace(&mut element.damping, damping);
+                (before * slide.abs(), elasticity.damping_in_series(before, width / length))
+            }
+            None => (strength, damping),
+        };
         if strength > 0.0 {
-            sums.opposing.add(strength, along * slide.signum(), slide.abs(), at, motion);
+            sums.opposing.add(strength, along * slide.signum(), seen, at, motion);
             sums.giving += strength * slide.signum() * (passing - slide);
             if begun {
                 sums.fracture += strength * slide.abs() * self.dt;
@@ -223,23 +232,25 @@ impl FlankSums {
         grid: &SectionGrid,
         FlankPatch { area, depth }: FlankPatch,
         stress: &FlankStress,
-        giving: &mut Giving,
+        grip: &mut FlankGrip,
         motion: &EdgeMotion,
     ) {
         let x = 0.5 * (grid.x(column) + grid.x(column + 1));
         let at = Point2::new(x, depth - 0.5 * area / grid.pitch());
         self.area += area;
         self.moment_of_area += at.coords * area;
-        let mut velocity = motion.velocity_at(at.x, at.y);
-        let strength_at = |speed: f64| stress.shear * area * (speed / stress.creep_speed).min(1.0);
-        if let Some((elasticity, whole)) = &stress.elasticity {
-            let before = velocity.y.hypot(giving.sliding).max(f64::MIN_POSITIVE);
-            velocity.x = giving.follow(velocity.x, strength_at(before) / before, area / whole, elasticity);
+        let FlankStress { shear, creep_speed, .. } = *stress;
+        let (mut velocity, whole) = (motion.velocity_at(at.x, at.y), shear * area);
+        let elasticity = stress.elasticity.as_ref().map(|(elasticity, all)| (elasticity, area / all));
+        if let Some((elasticity, share)) = elasticity {
+            velocity = grip.slide(velocity, &FlankFriction { strength: whole, creep_speed, share }, elasticity);
         }
         let speed = velocity.norm();
         if speed > 0.0 {
-            let strength = strength_at(speed);
-            self.opposing.add(strength, velocity / speed, speed, at, motion);
+            let strength = whole * (speed / creep_speed).min(1.0);
+            let damping = strength / speed;
+            let seen = elasticity.map_or(damping, |(elasticity, share)| elasticity.damping_in_series(damping, share));
+            self.opposing.add(strength, velocity / speed, seen, at, motion);
         }
     }
 

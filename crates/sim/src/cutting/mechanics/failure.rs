@@ -65,18 +65,25 @@ pub enum Failure {
 #[serde(default, deny_unknown_fields)]
 pub struct Thresholds {
     /// Slower than this, a driven knife stands, m/s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub stall_speed_m_per_s: f64,
     /// A knife that stands this long is stalled, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub stall_s: f64,
     /// A cut is through when at most this share of the section is uncut.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub ligament_share: f64,
     /// Translation of the food on the board, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub slip_m: f64,
     /// Rotation of the food on the board, rad.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub roll_rad: f64,
     /// Depth of a dent without a cut, as a share of the section's height.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub indentation_share: f64,
     /// Force between knife and board, N.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub board_force_n: f64,
     /// Pieces that a cut of a brittle food makes, at most.
     pub pieces: usize,

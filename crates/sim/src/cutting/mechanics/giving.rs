@@ -1,9 +1,9 @@
-//! How a free food gives way along the edge: Maxwell elements between the knife and the end of the crack, and at the flanks.
+//! How a free food gives way along the edge: Maxwell elements between the knife and the end of the crack.
 //!
-//! Slicing resists like a damper that is the harder the slower the edge sinks, R w/v for a push at speed v, and so do the flanks,
-//! 2 τ A/v: kilonewtons by meter per second. Held directly against a food of some grams, they would throw it to and fro in every
-//! step. In series with the elasticity of the food the force of steady motion is the law's, and a light food is carried along
-//! instead. There is no time constant to choose: the dampers are the law's, the springs those of the food.
+//! Slicing resists like a damper that is the harder the slower the edge sinks, R w/v for a push at speed v: kilonewtons by meter
+//! per second. Held directly against a food of some grams, it would throw it to and fro in every step. In series with the
+//! elasticity of the food the force of steady motion is the law's, and a light food is carried along instead. There is no time
+//! constant to choose: the dampers are the law's, the springs those of the food.
 
 /// Share of the critical damping of the food's mass: moist foods are lossy.
 const DAMPING_RATIO: f64 = 0.5;
@@ -13,9 +13,9 @@ const STIFFNESS_SHARE: f64 = 0.25;
 /// Spring and loss of all elements of one kind together; each has its share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Elasticity {
-    stiffness: f64,
-    loss: f64,
-    dt: f64,
+    pub(super) stiffness: f64,
+    pub(super) loss: f64,
+    pub(super) dt: f64,
 }
 
 impl Elasticity {
@@ -24,14 +24,19 @@ impl Elasticity {
         let stiffness = stiffness.min(STIFFNESS_SHARE * mass_kg / (dt * dt));
         Self { stiffness, loss: 2.0 * DAMPING_RATIO * (stiffness * mass_kg).sqrt(), dt }
     }
+
+    /// Damping that a step sees of a damper of `damping` (N s/m) behind this `share` of the elasticity, N s/m: the two in
+    /// series, and so less than the food's mass bears however hard the damper is.
+    pub(super) fn damping_in_series(&self, damping: f64, share: f64) -> f64 {
+        let own = (self.stiffness * self.dt + self.loss) * share;
+        if own > 0.0 { damping * own / (damping + own) } else { 0.0 }
+    }
 }
 
 /// One spring, with the law's damper behind it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Giving {
     stretch_m: f64,
-    /// Speed of sliding in the last step, m/s.
-    pub(super) sliding: f64,
     /// Energy in the spring, J.
     stored_j: f64,
 }
@@ -41,21 +46,16 @@ impl Giving {
     /// speed at which a damper of `damping` (N s/m) takes the spring's force.
     pub(super) fn follow(&mut self, speed: f64, damping: f64, share: f64, elasticity: &Elasticity) -> f64 {
         if damping <= 0.0 || share <= 0.0 {
-            *self = Self { sliding: speed, ..Self::default() };
+            *self = Self::default();
             return speed;
         }
         let Elasticity { dt, .. } = *elasticity;
         let (stiffness, loss) = (elasticity.stiffness * share, elasticity.loss * share);
         let force = stiffness * (self.stretch_m + speed * dt) + loss * speed;
-        self.sliding = force / (damping + stiffness * dt + loss);
-        self.stretch_m += (speed - self.sliding) * dt;
+        let sliding = force / (damping + stiffness * dt + loss);
+        self.stretch_m += (speed - sliding) * dt;
         self.stored_j = 0.5 * stiffness * self.stretch_m * self.stretch_m;
-        self.sliding
-    }
-
-    /// Lets go.
-    pub(super) fn release(&mut self) {
-        *self = Self::default();
+        sliding
     }
 
     /// Energy in the spring, J.

@@ -13,6 +13,7 @@ mod config;
 mod elements;
 mod energy;
 mod failure;
+mod flank_grip;
 mod front;
 mod giving;
 mod grid;

@@ -4,19 +4,24 @@ use nalgebra::{Point2, Vector3};
 use skills::field::FieldError;
 
 use super::config::{Board, CuttingConfig};
-use super::elements::{EdgeElement, EdgeSums, EdgeZone, FlankPatch, FlankStress, FlankSums, PlanarWrench};
+use super::elements::{EdgeElement, EdgeSums, PlanarWrench};
 use super::energy::Energy;
+use super::flank_grip::FlankGrip;
 use super::front::Front;
-use super::giving::{Elasticity, Giving};
 use super::grid::SectionGrid;
 use super::kinks::Kinks;
-use super::lateral::{Walls, flank_stiffness_n_per_m, plane_strain, shear_share};
 use super::motion::EdgeMotion;
-use super::quality::IncisionQuality;
 use super::surface::Surface;
 use crate::SimError;
 use crate::cutting::knife::Edge;
 use crate::cutting::material::Material;
+
+mod books;
+mod forces;
+mod resistance;
+mod told;
+
+use forces::sum;
 
 /// Where a cut stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +68,7 @@ pub struct Cut {
     front: Front,
     /// The edge at each node, and how the food gives way along the flanks in each column.
     elements: Vec<EdgeElement>,
-    flanks: Vec<Giving>,
+    flanks: Vec<FlankGrip>,
     surface: Surface,
     kinks: Kinks,
     material: Material,
@@ -92,18 +97,8 @@ pub struct Cut {
 pub(super) const THROUGH_SHARE: f64 = 0.02;
 /// … and the cut has come this near to the board everywhere, m.
 const BOARD_NEARNESS_M: f64 = 0.0005;
-/// Angle by which skin dips under the edge when it bursts, rad: estimate, which gives the forces measured on grapes.
-const SKIN_ANGLE_RAD: f64 = std::f64::consts::FRAC_PI_6;
-/// Width on which an edge crushes a brittle food before it breaks, m: size of the pores of biscuits, estimate.
-const BRITTLE_WIDTH_M: f64 = 0.0003;
-/// Foods at least this stiff press on the flanks of the blade that spreads them, Pa.
-const STIFF_FOOD_PA: f64 = 1e6;
 /// Time in which the toughness follows the speed, s: a few steps, so that their product is stable.
 const RATE_RESPONSE_S: f64 = 0.005;
-/// The power law of the speed holds within this factor of the reference speed.
-const RATE_RANGE: f64 = 100.0;
-/// Share of the largest stiffness that a step of semi-implicit integration bears; 4 is the limit of stability.
-const STIFFNESS_SHARE: f64 = 0.5;
 
 impl Cut {
     /// Begins a cut of a section: convex `polygons` with disjoint interiors in the section's frame.
@@ -125,7 +120,7 @@ impl Cut {
         Ok(Self {
             front: Front::new(&grid, edge),
             elements: vec![EdgeElement::default(); grid.columns() + 1],
-            flanks: vec![Giving::default(); grid.columns()],
+            flanks: vec![FlankGrip::default(); grid.columns()],
             surface: Surface::new(&grid, config.cell_m),
             kinks: Kinks::default(),
             material: material.clone(),
@@ -222,142 +217,6 @@ impl Cut {
         motion.position + nalgebra::Vector2::new(cos, sin) * (0.5 * self.edge.length_m())
     }
 
-    /// Resistance to a running crack, N/m: R (v/v₀)ⁿ + (1 + μ) σ 2ρ, ρ the radius of the edge.
-    fn resistance_n_per_m(&self) -> f64 {
-        let material = &self.material;
-        let speed = self.rate_speed_m_per_s / material.reference_speed_m_per_s;
-        let rate = speed.clamp(1.0 / RATE_RANGE, RATE_RANGE).powf(material.rate_exponent);
-        material.toughness_j_per_m2 * rate + self.bluntness_n_per_m()
-    }
-
-    /// What a blunt edge or a wire adds by crushing (law of wire cutting: linear in the diameter), N/m.
-    fn bluntness_n_per_m(&self) -> f64 {
-        (1.0 + self.edge.friction) * self.material.yield_stress_pa * 2.0 * self.edge.radius_m
-    }
-
-    /// Load per length at which a cut begins under a mean dent, N/m; slicing lowers it as it lowers a running cut's.
-    fn initiation_n_per_m(&self, dent: f64) -> f64 {
-        let material = &self.material;
-        let load = if self.brittle() {
-            material.yield_stress_pa * BRITTLE_WIDTH_M.max(2.0 * self.edge.radius_m)
-        } else {
-            let skin = 2.0 * material.skin_tension_n_per_m * SKIN_ANGLE_RAD.sin();
-            let running = material.initiation_factor(self.edge.radius_m) * self.resistance_n_per_m();
-            running.max(skin)
-        };
-        let ratio = material.slice_efficiency * self.slid_m / dent.max(f64::MIN_POSITIVE) + self.edge.tooth_ratio;
-        load / (1.0 + ratio * ratio)
-    }
-
-    fn mean_dent(&self, width: f64) -> f64 {
-        self.front.engaged().map(|node| self.front.dent[node] * self.front.width[node]).sum::<f64>() / width
-    }
-
-    /// Length of the edge that presses, along the edge, m.
-    fn pressing_length(&self) -> f64 {
-        let length = |node: usize| self.front.width[node] * (1.0 + self.front.slope[node].powi(2)).sqrt();
-        self.front.engaged().map(length).sum()
-    }
-
-    fn zone(&self, width: f64, resistance: f64, dt: f64) -> EdgeZone {
-        let largest_stiffness = STIFFNESS_SHARE * self.config.effective_mass_kg / (dt * dt * width);
-        EdgeZone {
-            resistance,
-            stiffness: self.material.indentation_stiffness_pa.min(largest_stiffness),
-            largest_stiffness,
-            efficiency: self.material.slice_efficiency,
-            tooth_ratio: self.edge.tooth_ratio,
-            friction: self.edge.friction,
-            creep_speed: self.config.creep_speed_m_per_s,
-            squeeze_ratio: self.config.squeeze_ratio,
-            board: self.board,
-            elasticity: self.config.free_food_kg.map(|mass_kg| {
-                let stiffness = shear_share() * self.material.indentation_stiffness_pa * width;
-                (Elasticity::new(stiffness, mass_kg, dt), width)
-            }),
-            dt,
-        }
-    }
-
-    fn act(&mut self, motion: &EdgeMotion, zone: &EdgeZone) -> EdgeSums {
-        let mut sums = EdgeSums::default();
-        for node in 0..=self.grid.columns() {
-            let element = &mut self.elements[node];
-            if self.front.dent[node] <= 0.0 || self.front.width[node] <= 0.0 {
-                *element = EdgeElement::default();
-            } else {
-                let at = Point2::new(self.grid.x(node), self.front.edge[node]);
-                zone.act(node, &mut self.front, element, at, motion, &mut sums);
-            }
-        }
-        sums
-    }
-
-    /// Friction of the flanks in the cut, both together: 2 (τ + μ p) with the pressure p of a spread stiff food.
-    fn rub(&mut self, motion: &EdgeMotion, dt: f64) -> FlankSums {
-        let shear = 2.0 * (self.material.flank_shear_pa + self.edge.friction * self.spreading_pressure_pa());
-        let blade_area = |column: usize| self.front.blade_area(&self.grid, column, self.edge.blade_height_m);
-        let elasticity = self.config.free_food_kg.map(|mass_kg| {
-            let whole: f64 = (0..self.grid.columns()).map(blade_area).sum();
-            let stiffness = flank_stiffness_n_per_m(self.material.youngs_modulus_pa, whole);
-            (Elasticity::new(stiffness, mass_kg, dt), whole)
-        });
-        let stress = FlankStress { shear, creep_speed: self.config.creep_speed_m_per_s, elasticity };
-        let mut sums = FlankSums::default();
-        for column in 0..self.grid.columns() {
-            self.surface.record(&self.grid, &self.front, column, motion);
-            let area = self.front.blade_area(&self.grid, column, self.edge.blade_height_m);
-            if area <= 0.0 {
-                self.flanks[column].release();
-            } else {
-                let ends = [column, column + 1].map(|node| self.front.edge[node].min(self.front.crack[node]));
-                let depth = (0.5 * (ends[0] + ends[1])).min(self.grid.bottom());
-                sums.add(column, &self.grid, FlankPatch { area, depth }, &stress, &mut self.flanks[column], motion);
-            }
-        }
-        sums
-    }
-
-    /// Pressure of a stiff food on the blade that spreads it, Pa: E* t/(2 h).
-    fn spreading_pressure_pa(&self) -> f64 {
-        let modulus = self.material.youngs_modulus_pa;
-        // a brittle food opens before the blade and does not grip it
-        if modulus < STIFF_FOOD_PA || self.brittle() {
-            return 0.0;
-        }
-        plane_strain(modulus) * self.edge.thickness_m / (2.0 * self.grid.height())
-    }
-
-    fn walls(&self, dt: f64) -> Walls {
-        Walls {
-            modulus: self.material.youngs_modulus_pa,
-            yield_stress: self.material.yield_stress_pa,
-            freedom: self.config.blade_freedom_m,
-            largest_stiffness: STIFFNESS_SHARE * self.config.effective_mass_kg / (dt * dt),
-        }
-    }
-
-    /// Adds one step to the energies; work is taken with the mean of the forces before and after.
-    fn keep_books(
-        &mut self,
-        motion: &EdgeMotion,
-        edge: &EdgeSums,
-        [along, friction]: [&PlanarWrench; 2],
-        wrench: &PlanarWrench,
-        dt: f64,
-    ) {
-        let stored =
-            self.elements.iter().map(|element| &element.giving).chain(&self.flanks).map(Giving::stored_j).sum();
-        let newly_stored = stored - std::mem::replace(&mut self.stored_along_j, stored);
-        self.energy.work_j -= 0.5 * (wrench.power(motion) + self.previous.power(motion)) * dt;
-        self.energy.friction_j -= friction.power(motion) * dt + newly_stored;
-        // what a free food gives way by along the edge is lost but for what its springs store
-        self.energy.friction_j += if self.begun { edge.giving * dt } else { -along.power(motion) * dt };
-        self.energy.fracture_j += edge.fracture;
-        self.energy.elastic_j = edge.elastic + stored;
-        self.previous = *wrench;
-    }
-
     /// Decides where the cut stands after a step.
     fn proceed(&mut self, pressing: bool, blade_area: f64) {
         let breaks = self.material.brittle_depth_share.filter(|_| self.begun);
@@ -389,128 +248,4 @@ impl Cut {
         };
         self.ligament_share() < THROUGH_SHARE && (0..=self.grid.columns()).all(reached)
     }
-
-    fn report(
-        &self,
-        motion: &EdgeMotion,
-        wrench: PlanarWrench,
-        [force, moment]: [Vector3<f64>; 2],
-        middle: Option<(f64, Point2<f64>)>,
-    ) -> CutStep {
-        let (width_m, at) = middle.unwrap_or((0.0, self.edge_middle(motion)));
-        let velocity = motion.velocity_at(at.x, at.y);
-        let (sin, cos) = motion.angle_rad.sin_cos();
-        let (slice, push) = (velocity.x * cos + velocity.y * sin, velocity.y * cos - velocity.x * sin);
-        let gap = |board: Board| {
-            let heights =
-                (0..=self.grid.columns()).map(|node| board.depth_at(self.grid.x(node)) - self.front.edge[node]);
-            heights.fold(f64::INFINITY, f64::min)
-        };
-        CutStep {
-            force_in_section: force + Vector3::new(wrench.force.x, wrench.force.y, 0.0),
-            moment_in_section: moment + Vector3::new(0.0, 0.0, wrench.moment),
-            stage: self.stage,
-            width_m,
-            slice_push_ratio: if width_m > 0.0 && push > 0.0 { slice / push } else { 0.0 },
-            advance_m_per_s: velocity.y,
-            board_gap_m: self.board.map_or(f64::INFINITY, gap),
-        }
-    }
-}
-
-/// Accessors.
-impl Cut {
-    /// Where the cut stands.
-    #[must_use]
-    pub fn stage(&self) -> Stage {
-        self.stage
-    }
-
-    /// Whether the edge has touched the food.
-    #[must_use]
-    pub fn touched(&self) -> bool {
-        self.touched
-    }
-
-    /// Whether the edge presses on food now.
-    #[must_use]
-    pub fn pressing(&self) -> bool {
-        matches!(self.stage, Stage::Indenting | Stage::Cutting)
-    }
-
-    /// Whether the food breaks at once below a shallow cut.
-    #[must_use]
-    pub fn brittle(&self) -> bool {
-        self.material.brittle_depth_share.is_some()
-    }
-
-    /// Energies so far.
-    #[must_use]
-    pub fn energy(&self) -> Energy {
-        self.energy
-    }
-
-    /// Area of the section that is cut, m².
-    #[must_use]
-    pub fn cut_area_m2(&self) -> f64 {
-        self.cut_area_m2
-    }
-
-    /// Area of the section, m².
-    #[must_use]
-    pub fn section_area_m2(&self) -> f64 {
-        self.grid.area()
-    }
-
-    /// Uncut share of the section.
-    #[must_use]
-    pub fn ligament_share(&self) -> f64 {
-        (1.0 - self.cut_area_m2 / self.grid.area()).max(0.0)
-    }
-
-    /// Greatest depth of the cut below the food's upper side, m.
-    #[must_use]
-    pub fn depth_m(&self) -> f64 {
-        self.front.depth(&self.grid)
-    }
-
-    /// Deepest mean dent before the cut began, as a share of the section's height; zero after that.
-    #[must_use]
-    pub fn indentation_share(&self) -> f64 {
-        if self.begun { 0.0 } else { self.deepest_dent_m / self.grid.height() }
-    }
-
-    /// Plane through the surface that was cut so far, z = c₀ + c₁ x + c₂ y.
-    pub(super) fn best_plane(&self) -> Option<Vector3<f64>> {
-        self.surface.best_plane(&self.grid)
-    }
-
-    /// Depth and deviation of the surface that was cut so far, in bands; see [`Surface::bands`].
-    pub(super) fn bands(&self, along: f64, bands: usize) -> Vec<Point2<f64>> {
-        self.surface.bands(&self.grid, along, bands)
-    }
-
-    /// Form and roughness of the surface that was cut so far; allocates, so it is no part of a control step.
-    #[must_use]
-    pub fn quality(&self) -> IncisionQuality {
-        IncisionQuality {
-            kinks: self.kinks.count(),
-            crush_work_j: self.crush_work_j,
-            torn_area_m2: self.torn_area_m2,
-            ..IncisionQuality::of(&self.surface, &self.grid, self.edge.roughness_factor)
-        }
-    }
-
-    /// Mean absolute deviation Ra of what is cut so far, m, as [`Self::quality`] tells it. Allocates nothing.
-    #[must_use]
-    pub fn mean_deviation_m(&self) -> f64 {
-        IncisionQuality::mean_deviation_m(&self.surface, &self.grid, self.edge.roughness_factor)
-    }
-}
-
-fn sum(wrenches: [PlanarWrench; 3]) -> PlanarWrench {
-    wrenches.iter().fold(PlanarWrench::default(), |total, wrench| PlanarWrench {
-        force: total.force + wrench.force,
-        moment: total.moment + wrench.moment,
-    })
 }

@@ -6,11 +6,11 @@ use super::edge_grip::{EdgeGrip, GripLimits};
 use super::knife_motion::KnifeMotion;
 use super::piece::{Lie, Piece};
 use super::record::CutRecord;
-use super::section_frame::{board_line, entry_depth_m, section_frame};
+use super::section_frame::{board_line, came_through_the_top, section_frame};
 use super::setup::CuttingSetup;
 use super::tally::Tally;
 use crate::SimError;
-use crate::cutting::geometry::{Section, polygon};
+use crate::cutting::geometry::{MassProperties, Section, polygon};
 use crate::cutting::knife::Edge;
 use crate::cutting::mechanics::{Cut, CutStep, CuttingConfig, EdgeMotion, Failure, FailureMonitor, Observation, Stage};
 
@@ -18,8 +18,6 @@ use crate::cutting::mechanics::{Cut, CutStep, CuttingConfig, EdgeMotion, Failure
 const SMALLEST_SECTION_M2: f64 = 1e-6;
 /// Parts of a section of less area are left out, m².
 const SMALLEST_PART_M2: f64 = 1e-9;
-/// An edge that is seen this deep at first did not come through the top, m.
-const DEEPEST_ENTRY_M: f64 = 2e-3;
 /// A blade this near to an old cut follows it, m and rad.
 const SAME_CUT_M: f64 = 2e-3;
 const SAME_CUT_RAD: f64 = 0.1;
@@ -27,8 +25,6 @@ const SAME_CUT_RAD: f64 = 0.1;
 const WANTED_M: f64 = 0.010;
 /// A knife whose reference is this far ahead is driven, m.
 const AHEAD_M: f64 = 1e-3;
-/// Share of a food's mass that its rim shows sideways: that of a rolling cylinder is a third.
-const RIM_SHARE: f64 = 0.3;
 
 /// What the food does to the knife in one step, world axes.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,6 +52,8 @@ pub(super) struct Incision {
     cut: Cut,
     monitor: FailureMonitor,
     grip: EdgeGrip,
+    /// The piece that is cut, in the food's frame.
+    mass: MassProperties,
     /// Where the edge pressed in the last step.
     pressed_in_knife: Vector3<f64>,
     tally: Tally,
@@ -94,15 +92,12 @@ impl Incision {
         }
         let edge = &setup.knife.edge;
         let section_from_knife = world_from_section.inv_mul(&knife.world_from_knife);
-        if entry_depth_m(&section, &section_from_knife, edge) > DEEPEST_ENTRY_M {
+        if !came_through_the_top(&section, &section_from_knife, edge) {
             return Ok(Err(Refused::FromTheSide));
         }
         let board = board_line(&world_from_section, &setup.board);
-        let config = CuttingConfig {
-            effective_mass_kg: mass_kg,
-            free_food_kg: Some(RIM_SHARE * piece.mass.mass_kg),
-            ..setup.config.clone()
-        };
+        let shown_kg = shown_kg(piece, &section, &food_from_section);
+        let config = CuttingConfig { effective_mass_kg: mass_kg, free_food_kg: Some(shown_kg), ..setup.config.clone() };
         let planned = nearest(&setup.planned, &world_from_section, &section);
         Ok(Ok(Self {
             planned,
@@ -112,6 +107,7 @@ impl Incision {
             cut: Cut::new(&section.polygons, &setup.food.material, edge, board, &config)?,
             monitor: FailureMonitor::new(setup.thresholds.clone())?,
             grip: EdgeGrip::default(),
+            mass: piece.mass,
             pressed_in_knife: knife_middle(edge),
             tally: Tally::default(),
             begun_s: time_s,
@@ -141,7 +137,6 @@ impl Incision {
     pub fn step(
         &mut self,
         setup: &CuttingSetup,
-        piece_mass_kg: f64,
         lie: &Lie,
         knife: &KnifeMotion,
         dt: f64,
@@ -153,7 +148,6 @@ impl Incision {
         let section_from_knife = world_from_section.inv_mul(&knife.world_from_knife);
         let along = section_from_knife.rotation * Vector3::x();
         let from_heel = section_from_knife.rotation * self.pressed_in_knife;
-        let rim_kg = RIM_SHARE * piece_mass_kg;
         let slide = along.dot(&(sliding + turning.cross(&from_heel)));
         let Some(motion) = EdgeMotion::from_pose(&section_from_knife, sliding, turning) else {
             return Ok(Exchange::default());
@@ -162,7 +156,10 @@ impl Incision {
         self.pressed_in_knife = pressed_point(&section_from_knife, &step, &setup.knife.edge);
         let (mut force, mut moment) = (step.force_in_section, step.moment_in_section);
         let from_heel = section_from_knife.rotation * self.pressed_in_knife;
-        let side = self.hold_sideways(setup, rim_kg, &step, (sliding + turning.cross(&from_heel)).z, dt);
+        let pressed_in_food = self.food_from_section * section_from_knife * Point3::from(self.pressed_in_knife);
+        let across = self.food_from_section * Vector3::z();
+        let shown_kg = self.mass.shown_along(&pressed_in_food, &across);
+        let side = self.hold_sideways(setup, shown_kg, &step, (sliding + turning.cross(&from_heel)).z, dt);
         force.z += side;
         moment += from_heel.cross(&Vector3::new(0.0, 0.0, side));
         self.tally.add(&step, force.norm(), slide, dt);
@@ -177,7 +174,7 @@ impl Incision {
     }
 
     /// Friction across the edge where it presses.
-    fn hold_sideways(&mut self, setup: &CuttingSetup, rim_kg: f64, step: &CutStep, speed: f64, dt: f64) -> f64 {
+    fn hold_sideways(&mut self, setup: &CuttingSetup, shown_kg: f64, step: &CutStep, speed: f64, dt: f64) -> f64 {
         if step.width_m <= 0.0 {
             self.grip.release();
             return 0.0;
@@ -185,7 +182,7 @@ impl Incision {
         let limits = GripLimits {
             stiffness_n_per_m: setup.food.material.indentation_stiffness_pa * step.width_m,
             friction_n: setup.knife.edge.friction * step.force_in_section.xy().norm(),
-            mass_kg: rim_kg,
+            mass_kg: shown_kg,
         };
         self.grip.hold(speed, &limits, dt)
     }
@@ -270,6 +267,13 @@ impl Incision {
             pressing_s: self.tally.pressing_s,
         }
     }
+}
+
+/// Least mass that a piece shows at the corners of its section, and so anywhere in it, kg.
+fn shown_kg(piece: &Piece, section: &Section, food_from_section: &Isometry3<f64>) -> f64 {
+    let corners = section.polygons.iter().flatten();
+    let shown = corners.map(|corner| piece.mass.shown_at(&(food_from_section * Point3::new(corner.x, corner.y, 0.0))));
+    shown.fold(piece.mass.mass_kg, f64::min)
 }
 
 /// Middle of the edge in the knife's frame.

@@ -188,7 +188,7 @@ impl CuttingProcess {
         for piece in &mut self.pieces {
             let Some(incision) = piece.active.and_then(|active| piece.incisions.get_mut(active)) else { continue };
             let lie = piece.lie;
-            let given = incision.step(&self.setup, piece.mass.mass_kg, &lie, knife, step.time_step_s)?;
+            let given = incision.step(&self.setup, &lie, knife, step.time_step_s)?;
             (self.slip_m, self.roll_rad) = (self.slip_m.max(incision.slip_m), self.roll_rad.max(incision.roll_rad));
             if let Some(failure) = incision.failure().filter(|_| self.failure.is_none()) {
                 let time_s = step.time_s;

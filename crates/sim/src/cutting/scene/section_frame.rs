@@ -32,8 +32,21 @@ pub(super) fn board_line(world_from_section: &Isometry3<f64>, board: &CuttingBoa
     (up.y < -STEEPEST).then(|| Board { y_m: up.dot(&top.coords) / up.y, slope: -up.x / up.y })
 }
 
+/// An edge that is seen this deep at first did not come through the top: m, and as a share of the section's height. A knife that
+/// comes down at 0.2 m/s is 0.2 mm deep in its first step of 1 ms.
+const DEEPEST_ENTRY_M: f64 = 2e-3;
+const DEEPEST_ENTRY_SHARE: f64 = 0.5;
+
+/// Whether an edge that is seen in a section for the first time came through its top, and not through a side: a blade that a
+/// sliver of a food falls against stands in all of its height at once.
+pub(super) fn came_through_the_top(section: &Section, section_from_knife: &Isometry3<f64>, edge: &Edge) -> bool {
+    let height_m = section.bounds().map_or(0.0, |(low, high)| high.y - low.y);
+    let deepest_m = DEEPEST_ENTRY_M.min(DEEPEST_ENTRY_SHARE * height_m);
+    entry_depth_m(section, section_from_knife, edge) <= deepest_m
+}
+
 /// How deep an edge stands in the food below the upper side of the section, m; negative above it.
-pub(super) fn entry_depth_m(section: &Section, section_from_knife: &Isometry3<f64>, edge: &Edge) -> f64 {
+fn entry_depth_m(section: &Section, section_from_knife: &Isometry3<f64>, edge: &Edge) -> f64 {
     let points = edge
         .points
         .windows(2)
@@ -90,6 +103,22 @@ mod tests {
         let line = board_line(&frame, &board()).unwrap();
         assert_relative_eq!(line.y_m, 0.05 / 0.3_f64.cos(), epsilon = 1e-12);
         assert_eq!(board_line(&section_frame(&knife(0.0, 1.5), &board()), &board()), None);
+    }
+
+    #[test]
+    fn a_sliver_that_falls_against_the_edge_is_not_squeezed_by_it() {
+        let of_height = |height: f64| {
+            let outline = [[0.0, 0.01], [0.04, 0.01], [0.04, 0.01 + height], [0.0, 0.01 + height]];
+            let polygons = vec![outline.map(Point2::from).to_vec()];
+            Section { food_from_section: Isometry3::identity(), polygons }
+        };
+        let edge = Edge::ideal(0.2, 0.03);
+        let entered = |height, depth| {
+            came_through_the_top(&of_height(height), &Isometry3::translation(-0.1, 0.01 + depth, 0.0), &edge)
+        };
+        assert!(!entered(0.00045, 0.00044), "all of the sliver at once");
+        assert!(entered(0.00045, 0.0002) && entered(0.03, 0.0019));
+        assert!(!entered(0.03, 0.0021));
     }
 
     #[test]

@@ -20,12 +20,16 @@ pub struct ContainerFile {
     #[serde(default)]
     pub description: String,
     /// Mass, kg.
+    #[schemars(range(min = 1e-3, max = 100.0))]
     pub mass_kg: f64,
     /// Coefficient of friction between the wall and a grain.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub friction: f64,
     /// Coefficient of restitution between the wall and a grain.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
     /// Thickness of wall and floor, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = 0.1))]
     pub wall_m: f64,
     /// Number of flat sides that stand for the round wall; the area of the hole is that of the circle.
     #[serde(default = "default_facets")]
@@ -59,8 +63,10 @@ pub enum Profile {
 #[serde(deny_unknown_fields)]
 pub struct Straight {
     /// Inner radius, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub radius_m: f64,
     /// Inner height, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub height_m: f64,
 }
 
@@ -69,10 +75,13 @@ pub struct Straight {
 #[serde(deny_unknown_fields)]
 pub struct Cone {
     /// Inner radius at the floor, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub floor_radius_m: f64,
     /// Inner radius at the mouth, m; at least that at the floor.
+    #[schemars(range(max = LARGEST_M))]
     pub mouth_radius_m: f64,
     /// Inner height, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub height_m: f64,
 }
 
@@ -81,14 +90,19 @@ pub struct Cone {
 #[serde(deny_unknown_fields)]
 pub struct Bottle {
     /// Inner radius of the body, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub body_radius_m: f64,
     /// Inner height of the whole hollow, m.
+    #[schemars(range(min = THINNEST_WALL_M, max = LARGEST_M))]
     pub height_m: f64,
     /// Inclination of the shoulder against the horizontal, rad.
+    #[schemars(range(min = 0.1, max = 1.4))]
     pub shoulder_rad: f64,
     /// Inner radius of the neck, m.
+    #[schemars(range(min = THINNEST_WALL_M))]
     pub neck_radius_m: f64,
     /// Length of the neck, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub neck_length_m: f64,
 }
 
@@ -99,12 +113,16 @@ pub struct Spout {
     /// Width where it leaves the wall, m; rounded to a whole number of the wall's sides.
     pub width_m: f64,
     /// Width at the lip, m.
+    #[schemars(range(min = THINNEST_WALL_M))]
     pub lip_width_m: f64,
     /// Length from the wall to the lip, measured horizontally, m.
+    #[schemars(range(min = THINNEST_WALL_M))]
     pub length_m: f64,
     /// How far the channel's bottom lies below the rim at the wall, m.
+    #[schemars(range(min = THINNEST_WALL_M))]
     pub depth_m: f64,
     /// How far the bottom rises from the wall to the lip, m.
+    #[schemars(range(min = 0.0))]
     pub rise_m: f64,
 }
 

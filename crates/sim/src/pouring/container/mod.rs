@@ -167,6 +167,12 @@ impl Container {
     pub fn mesh(&self) -> DrawingMesh {
         DrawingMesh::of(&self.pieces)
     }
+
+    /// The same as it looks: without the faces within the wall, where its plates touch.
+    #[must_use]
+    pub fn looks(&self) -> DrawingMesh {
+        DrawingMesh::mitered(&self.pieces, self.facets)
+    }
 }
 
 #[cfg(test)]

@@ -28,16 +28,22 @@ pub struct GrainConfig {
     /// Shape.
     pub shape: GrainShape,
     /// Mean diameter of the ball of equal volume, m.
+    #[schemars(range(min = 0.001, max = 0.1))]
     pub diameter_m: f64,
     /// Standard deviation of the diameter over its mean; sizes beyond two deviations are drawn in to two.
+    #[schemars(range(min = 0.0, max = 0.25))]
     pub size_variation: f64,
     /// Density of a grain, kg/m³.
+    #[schemars(range(min = 10.0, max = 20_000.0))]
     pub density_kg_per_m3: f64,
     /// Coefficient of friction between grains.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub friction: f64,
     /// Coefficient of restitution between grains.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
     /// Coefficient of rolling resistance: torque over normal force and rolling radius.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub rolling_friction: f64,
 }
 

@@ -10,18 +10,25 @@ pub struct MonitorConfig {
     /// A grain outside both containers whose center is lower than this is spilt, m, world z.
     pub spilt_below_m: f64,
     /// A grain outside both containers that is slower than this, m/s, for [`Self::rest_s`] is spilt wherever it lies.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub rest_m_per_s: f64,
     /// See [`Self::rest_m_per_s`], s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub rest_s: f64,
     /// Tilt of the source above which a stopped flow may be a clog, rad.
+    #[schemars(range(min = 0.0, max = std::f64::consts::PI))]
     pub tilted_rad: f64,
     /// Time without flow that is a clog, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub clog_s: f64,
     /// A source with no more than this share of the grains left is empty and cannot clog.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub empty_share: f64,
     /// Interval that the flow is averaged over, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub flow_interval_s: f64,
     /// Time off the rim after which the next touch counts again, s.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub rim_pause_s: f64,
 }
 

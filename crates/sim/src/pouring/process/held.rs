@@ -15,6 +15,7 @@ use crate::spatial::{Drawing, DrawnShape, HeldTool, Rgba, TriangleMesh};
 pub struct Grip {
     /// Height of the fingers above the underside of the cup, m; half of the cup's height if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub height_m: Option<f64>,
     /// Direction in which the hand points: angle about the cup's axis from its lip, rad. At ±π/2 the cup tilts about the
     /// hand's own axis, by the last joint alone.
@@ -71,7 +72,7 @@ pub fn held_container(container: &Container, grip_from_tool: &Isometry3<f64>, co
 /// How a container looks, placed at `body_from_container`.
 #[must_use]
 pub fn container_drawing(container: &Container, body_from_container: &Isometry3<f64>, color: Rgba) -> Drawing {
-    let mesh = container.mesh();
+    let mesh = container.looks();
     let mesh = TriangleMesh { vertices: mesh.points, triangles: mesh.triangles, ..TriangleMesh::default() };
     Drawing { shape: DrawnShape::Mesh(mesh), body_from_shape: *body_from_container, color }
 }

@@ -1,6 +1,6 @@
 //! Pouring with an arm: the cup in its hand, grains in it, and the container that they are poured into.
 
-mod arm_height;
+mod arm_watch;
 mod clearance;
 mod gauge;
 mod held;
@@ -20,7 +20,8 @@ use super::monitor::{MonitorConfig, Place, PourMonitor};
 use crate::error::SimError;
 use crate::spatial::{GrainDescription, Process, Rgba, Series, SpatialArm, SpatialWorld, Step, wrench_of};
 
-use arm_height::ArmHeight;
+pub use arm_watch::ArmClearance;
+use arm_watch::ArmWatch;
 pub use clearance::VesselClearance;
 pub use gauge::{PourGauge, PourReading};
 pub use held::{Grip, container_drawing, held_container};
@@ -42,8 +43,10 @@ const MM: f64 = 1e3;
 #[serde(default, deny_unknown_fields)]
 pub struct TableConfig {
     /// Coefficient of friction between table and grain.
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub friction: f64,
     /// Coefficient of restitution between table and grain.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub restitution: f64,
 }
 
@@ -96,7 +99,7 @@ struct Running {
     lip: LipWatch,
     target_touches: Touches,
     table_touches: Touches,
-    arm_height: ArmHeight,
+    arm_watch: ArmWatch,
 }
 
 impl PouringProcess {
@@ -132,7 +135,7 @@ impl PouringProcess {
     pub fn result(&self) -> Option<PourResult> {
         let running = self.running.as_ref()?;
         let touches = [running.target_touches.count(), running.table_touches.count()];
-        Some(PourResult::new(&running.monitor, running.lip.report(), touches, running.arm_height.least_m()))
+        Some(PourResult::new(&running.monitor, running.lip.report(), touches, running.arm_watch.least()))
     }
 }
 
@@ -159,7 +162,7 @@ impl Running {
             lip,
             target_touches: Touches::between(colliders.0, colliders.1),
             table_touches: Touches::between(colliders.0, table),
-            arm_height: ArmHeight::new(arm),
+            arm_watch: ArmWatch::new(arm, &setup.target, &setup.world_from_target),
         })
     }
 
@@ -226,7 +229,7 @@ impl Process for PouringProcess {
         running.lip.look(&running.monitor, physics);
         running.target_touches.look(physics, step.time_step_s);
         running.table_touches.look(physics, step.time_step_s);
-        running.arm_height.look(step.arm, step.world, step.time_s);
+        running.arm_watch.look(step.arm, step.world, step.time_s);
         let origin = Point3::from(step.arm.world_from_tool(step.world).translation.vector);
         self.gauge.set(running.reading(&step.world.physics, &origin));
         Ok(())

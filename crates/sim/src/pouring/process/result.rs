@@ -2,6 +2,7 @@
 
 use nalgebra::Vector2;
 
+use super::arm_watch::ArmClearance;
 use super::lip_watch::LipReport;
 use crate::pouring::monitor::{Counts, Place, PourMonitor};
 
@@ -53,9 +54,8 @@ pub struct PourResult {
     pub target_touches: usize,
     /// Times that the cup touched the table.
     pub table_touches: usize,
-    /// Height of the lowest point of the arm's links above the table, but for the base and its first link, m; infinite if the
-    /// arm's model states no shapes that collide.
-    pub arm_above_table_m: f64,
+    /// How far the arm's links kept from table and target, but for the base and its first link.
+    pub arm: ArmClearance,
 }
 
 impl PourResult {
@@ -63,7 +63,7 @@ impl PourResult {
         monitor: &PourMonitor,
         lip: LipReport,
         [target_touches, table_touches]: [usize; 2],
-        arm_above_table_m: f64,
+        arm: ArmClearance,
     ) -> Self {
         let landing = monitor.landing();
         Self {
@@ -88,7 +88,7 @@ impl PourResult {
             lip,
             target_touches,
             table_touches,
-            arm_above_table_m,
+            arm,
         }
     }
 }
