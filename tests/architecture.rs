@@ -1,4 +1,4 @@
-//! The source tree against its own rules: borders between crates, file heads and sizes, what PAPER.md and README.md claim.
+//! The source tree against its own rules: borders between crates, file heads and sizes, what PAPER.md, README.md and docs/layout.md claim.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test stops at the first surprise, its helpers too")]
 
@@ -190,14 +190,14 @@ fn every_asset_states_its_source() {
 }
 
 #[test]
-fn the_tree_in_the_readme_is_the_tree() {
+fn the_tree_in_the_layout_is_the_tree() {
     let expected = tree::drawing(Path::new(PROJECT));
-    let readme = read("README.md");
-    let shown = readme.split_once("## Layout").and_then(|(_, rest)| rest.split_once("```text\n")?.1.split_once("```"));
+    let layout = read("docs/layout.md");
+    let shown = layout.split_once("```text\n").and_then(|(_, rest)| rest.split_once("```"));
     let shown = shown.map(|(block, _)| block).unwrap_or_default();
     assert!(
         shown == expected,
-        "README.md: the block under `## Layout` differs from the folders and the first sentences of their modules; \
+        "docs/layout.md: the block differs from the folders and the first sentences of their modules; \
          replace it by:\n\n```text\n{expected}```\n"
     );
 }
@@ -205,7 +205,7 @@ fn the_tree_in_the_readme_is_the_tree() {
 #[test]
 fn every_relative_link_leads_somewhere() {
     let mut complaints = Vec::new();
-    for document in ["README.md", "PAPER.md", "CONTRIBUTING.md", "assets/README.md"] {
+    for document in ["README.md", "PAPER.md", "CONTRIBUTING.md", "assets/README.md", "docs/layout.md"] {
         let (text, folder) = (read(document), Path::new(PROJECT).join(document).parent().unwrap().to_owned());
         let targets = text.split("](").skip(1).filter_map(|rest| Some(rest.split_once(')')?.0));
         let relative = targets.filter(|target| !target.contains("://") && !target.starts_with('#'));

@@ -259,7 +259,7 @@ fn explain_tells_meaning_unit_default_and_place() {
             "task.push.push_speed_m_per_s",
             &[
                 "Speed of a push",
-                "a number, in meters per second",
+                "a number from 0.0001 to 2, in meters per second",
                 "default  0.02",
                 "scenarios of the kind push",
                 "scenarios/push_stick.toml:",
@@ -268,6 +268,9 @@ fn explain_tells_meaning_unit_default_and_place() {
         ("task.push.transfer", &["Whether and how the skill is transferred", "holds:", "planner", "tool_angle_rad"]),
         ("controller", &["one kind of", "impedance", "push, reach, cut, pour"]),
         ("world.obstacles.0.position_m", &["a list of 2 numbers, in meters", "it has to be stated"]),
+        // each kind of task shows its own file
+        ("limits", &["scenarios/push_stick.toml:", "scenarios/reach_panda.toml:", "scenarios/pour_wide_bowl.toml:"]),
+        ("task", &["scenarios/push_stick.toml:", "scenarios/reach_panda.toml:", "scenarios/pour_wide_bowl.toml:"]),
         ("clearance_m", &["limits.clearance_m"]),
         ("tool.asset", &["names    a file in tools"]),
         ("tool:family.l.arm_m", &["tool:family.l.arm_m", "assets/tools"]),
@@ -340,6 +343,34 @@ fn every_verb_has_a_page_of_the_manual() {
         // a machine without groff leaves it at that
         if let Ok(read) = Command::new("groff").args(["-man", "-Tutf8", "-ww"]).arg(&page).output() {
             assert!(read.status.success(), "{verb}: {}", complained(&read));
+        }
+    }
+}
+
+/// The methods that every implementation of a trait has to write, in the order of the trait.
+fn required_methods(file: &str, name: &str) -> Vec<String> {
+    let text = fs::read_to_string(Path::new(PROJECT).join(file)).unwrap();
+    let (_, rest) = text.split_once(&format!("pub trait {name}")).unwrap();
+    let body = rest.split_once("\n}\n").unwrap().0;
+    let signatures = body.split("    fn ").skip(1);
+    let bare = signatures.filter(|text| text.find(';').is_some_and(|end| !text[..end].contains('{')));
+    bare.map(|text| text.split(['(', '<']).next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn contributing_names_every_method_that_a_new_kind_has_to_write() {
+    let guide = fs::read_to_string(Path::new(PROJECT).join("CONTRIBUTING.md")).unwrap();
+    for (heading, file, name, count) in [
+        ("### A task", "crates/scenarios/src/tasks/mod.rs", "Task", 6),
+        ("### A movement primitive", "crates/skills/src/primitive/mod.rs", "MovementPrimitive", 3),
+        ("### A controller", "crates/sim/src/controllers/mod.rs", "Controller", 3),
+    ] {
+        let section = guide.split_once(heading).unwrap().1.split("\n### ").next().unwrap();
+        let methods = required_methods(file, name);
+        assert_eq!(methods.len(), count, "{name}: {methods:?}");
+        for method in methods {
+            let told = section.contains(&format!("`{method}`")) || section.contains(&format!("fn {method}("));
+            assert!(told, "{heading} does not name `{method}` of `{name}`");
         }
     }
 }

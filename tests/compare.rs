@@ -15,7 +15,7 @@ use std::process::Output;
 use arrow_array::cast::AsArray as _;
 use arrow_array::types::Float64Type;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use program::{PROJECT, place, replaced, shipped};
+use program::{PROJECT, replaced, shipped};
 use scenarios::campaign::{JournalReader, Row};
 use scenarios::comparison::{Comparison, Verdict};
 use scenarios::trials::Status;
@@ -222,9 +222,11 @@ fn what_cannot_be_compared_is_refused_and_nothing_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let text = quick();
     fs::write(folder.path().join("quick.toml"), &text).unwrap();
-    let tool = format!("quick.toml:{}", place(&text, "\"stick\""));
     for (arguments, parts) in [
-        (&["--tool", "stick", "--tool", "stik"][..], &["stik", "did you mean", &tool, "tool.asset = "][..]),
+        (
+            &["--tool", "stick", "--tool", "stik"][..],
+            &["did you mean", "--> quick.toml with tool.asset = \"stik\""][..],
+        ),
         (&["--vary", "object.mas_kg=0.1,0.2"], &["unknown key `mas_kg`", "mass_kg"]),
         (&["--vary", "tool.asset:mas_kg=0.1,0.2"], &["mas_kg"]),
         (&["--vary", "object.mass_kg=0.1,-0.2"], &["mass_kg", "expected"]),
@@ -280,4 +282,41 @@ fn the_recording_holds_every_variant_below_its_own_entity() {
     // both run the same seed: what differs is the friction, and with it where the disc came to lie
     let place = |variant: &str| found.places[&format!("/{variant}/plane/object")];
     assert_ne!(place("table_friction___0_2"), place("table_friction___0_3"));
+}
+
+#[test]
+fn a_measure_that_there_is_not_is_told_after_the_first_run_of_each_variant() {
+    let project = tempfile::tempdir().unwrap();
+    fs::write(project.path().join("push.toml"), quick()).unwrap();
+    let fixed = ["compare", "push.toml", "--no-record", "--trials", "6", "--out", "out"];
+    let asked = wield(project.path(), &[&fixed[..], &VARY, &["--measure", "goal_erorr_mm"]].concat());
+    assert_eq!(asked.status.code(), Some(2), "{}", said(&asked));
+    for part in ["no run has this measure", "did you mean `goal_error_mm`?", "kept in out"] {
+        assert!(said(&asked).contains(part), "{part}: {}", said(&asked));
+    }
+    let made = |rows: &[Row]| rows.iter().map(|row| row.index).collect::<Vec<_>>();
+    assert_eq!(made(&rows(&project.path().join("out"))), [0, 6, 12], "one run of each variant was made, and is kept");
+    assert!(!project.path().join("out/comparison.json").exists());
+    let mended = wield(project.path(), &[&fixed[..], &VARY, &["--measure", "duration_s"]].concat());
+    assert_eq!(mended.status.code(), Some(0), "{}", said(&mended));
+    assert_eq!(made(&rows(&project.path().join("out"))), (0..18).collect::<Vec<_>>(), "none of them was made twice");
+}
+
+#[test]
+fn a_controller_that_is_only_named_has_gains_for_arms_in_the_plane_and_in_space() {
+    let project = tempfile::tempdir().unwrap();
+    fs::write(project.path().join("push.toml"), quick()).unwrap();
+    fs::copy(Path::new(PROJECT).join("scenarios/reach_panda.toml"), project.path().join("reach.toml")).unwrap();
+    for scenario in ["push", "reach"] {
+        let file = format!("{scenario}.toml");
+        let arguments = ["compare", &file, "--vary", "controller=impedance,joint_pd", "--trials", "1", "--no-record"];
+        let output = wield(project.path(), &[&arguments[..], &["--out", scenario]].concat());
+        assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+        let found = comparison(&project.path().join(scenario));
+        let [impedance, joint_pd] = found.variants.as_slice() else { panic!("two variants") };
+        assert_eq!((impedance.name.as_str(), joint_pd.name.as_str()), ("impedance", "joint_pd"));
+        // the paper's gains, which are those of an impedance without any, leave a Panda too soft for this motion
+        assert_eq!(impedance.successes, usize::from(scenario == "push"), "{scenario}");
+        assert_eq!(joint_pd.successes, 1, "{scenario}: {:?}", joint_pd.failed);
+    }
 }

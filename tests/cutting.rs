@@ -54,6 +54,15 @@ fn a_banana_ends_in_three_equal_pieces_and_no_mass_is_lost() {
     let fracture = measure(&outcome, "fracture_per_area_j_per_m2");
     assert!(fracture > 0.5 * toughness && fracture < 1.5 * toughness, "{fracture} J/m2 of {toughness}");
     assert!(measure(&outcome, "work_per_area_j_per_m2") > fracture);
+    assert_accounted_for(&outcome);
+}
+
+/// Asserts that what the knife works is what the cut takes: surface, friction, and what is stored or lost.
+fn assert_accounted_for(outcome: &Value) {
+    let (work, fracture) = (measure(outcome, "work_per_area_j_per_m2"), measure(outcome, "fracture_per_area_j_per_m2"));
+    let unaccounted = measure(outcome, "unaccounted_per_area_j_per_m2");
+    assert!(unaccounted.abs() < 0.03 * work, "{unaccounted} of {work} J/m2");
+    assert!(fracture < work, "surface made by {fracture} J/m2 with {work} J/m2");
 }
 
 #[test]
@@ -63,6 +72,7 @@ fn a_food_that_rolls_away_is_named_with_the_remedy() {
     assert_eq!(code, Some(1), "{outcome:#}");
     let reason = outcome["failures"][0].as_str().unwrap();
     assert!(reason.contains("rolled by") && reason.contains("cut nearer to its axis, or hold it"), "{reason}");
+    assert_accounted_for(&outcome);
 }
 
 #[test]
@@ -72,6 +82,7 @@ fn a_knife_under_the_papers_gains_stalls_in_a_tough_block_and_says_so() {
     assert_eq!(code, Some(1), "{outcome:#}");
     let reason = outcome["failures"][0].as_str().unwrap();
     assert!(reason.contains("the knife stalled") && reason.contains("allow it more force"), "{reason}");
+    assert_accounted_for(&outcome);
 }
 
 #[test]

@@ -163,6 +163,23 @@ fn a_scenario_that_nobody_can_show_is_refused_without_a_trace() {
 }
 
 #[test]
+fn a_camera_that_hardly_sees_the_object_is_named_as_the_cause() {
+    let folder = project();
+    fs::write(folder.path().join("a.toml"), shipped()).unwrap();
+    for (change, cause) in [
+        ("camera.drop_out=0.99", "takes 30 frames a second and misses 99 % of them"),
+        ("camera.rate_hz=0.5", "takes 0.5 frames a second"),
+    ] {
+        let output = wield(folder.path(), None, &["run", "a.toml", "--set", change, "--no-record", "--out", "o"]);
+        let told = String::from_utf8_lossy(&output.stdout).into_owned() + &stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{told}");
+        for part in ["the object was not recorded for", cause, "raise camera.rate_hz or lower camera.drop_out"] {
+            assert!(told.contains(part), "{part:?} is missing in:\n{told}");
+        }
+    }
+}
+
+#[test]
 fn a_mistake_in_a_recording_points_into_the_csv_file() {
     for (from, to, at, parts) in [
         ("tool_y_m", "tool_y_mm", "tool_y_mm", ["missing column `tool_y_m`", "did you mean `tool_y_m`?"]),

@@ -302,3 +302,68 @@ fn check_tells_all_problems_of_all_files() {
         assert!(problems.contains(part), "{part:?} is missing in:\n{problems}");
     }
 }
+
+/// What is said of a scenario that options change, on one line.
+fn refused_options(options: &[&str]) -> String {
+    let folder = project();
+    assert!(fs::write(folder.path().join("a.toml"), shipped()).is_ok());
+    let sets = options.iter().flat_map(|option| ["--set", option]);
+    let arguments: Vec<&str> = ["check", "a.toml"].into_iter().chain(sets).collect();
+    let output = wield(folder.path(), None, &arguments);
+    assert_eq!(output.status.code(), Some(2), "{options:?}");
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_value_that_an_option_gave_is_blamed_on_the_option_and_not_on_a_line() {
+    let expect = [
+        (
+            &["object.mass_kg=-1"][..],
+            "--> a.toml --set object.mass_kg=-1\n",
+            "found -1; expected a number greater than 0",
+        ),
+        (&["object.mas_kg=1"], "--> a.toml --set object.mas_kg=1\n", "did you mean `mass_kg`?"),
+        (&["tool.asset=stik"], "--> a.toml --set tool.asset=stik\n", "did you mean `stick`?"),
+        (&["controller=impedence"], "--> a.toml --set controller=impedence\n", "did you mean `impedance`?"),
+        // a value inside a table that an option gave as a whole
+        (
+            &["controller={ impedance = { error_gain_per_s = 0.0 } }"],
+            "--> a.toml --set controller={ impedance = { error_gain_per_s = 0.0 } }\n",
+            "expected a number greater than 0",
+        ),
+        // in the file that a key names
+        (
+            &["tool.asset:friction=-2"],
+            "--> a.toml --set tool.asset:friction=-2\n",
+            "names this file: `asset` in [tool]",
+        ),
+        // the last of two options for the same key
+        (&["object.mass_kg=-1", "object.mass_kg=-2"], "--> a.toml --set object.mass_kg=-2\n", "the file is read with"),
+    ];
+    for (options, place, part) in expect {
+        let said = refused_options(options);
+        assert!(said.contains(place) && said.contains(part), "{options:?}: {said}");
+        assert!(!said.contains("a.toml:") || options[0].starts_with("tool.asset:"), "no line is blamed: {said}");
+    }
+}
+
+#[test]
+fn a_value_of_the_file_is_shown_at_its_place_in_the_file_whatever_options_change() {
+    let folder = project();
+    let text = replaced(&shipped(), "mass_kg = 0.0054", "mass_kg = -0.0054");
+    fs::write(folder.path().join("a.toml"), &text).unwrap();
+    // longer values above, keys that are not there, and a change of the same table
+    let options = [
+        "scenario.title=\"a title that is longer than the one which stands there\"",
+        "scenario.description=\"x\"",
+        "object.table_friction=0.31234",
+        "execution.settle_s=0.5",
+    ];
+    let sets = options.iter().flat_map(|option| ["--set", option]);
+    let arguments: Vec<&str> = ["check", "a.toml"].into_iter().chain(sets).collect();
+    let output = wield(folder.path(), None, &arguments);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    let expected = format!("a.toml:{}", place(&text, "-0.0054"));
+    assert!(said.contains(&expected), "expected {expected} in: {said}");
+}

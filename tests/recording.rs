@@ -114,10 +114,16 @@ fn a_file_holds_a_run_in_space() {
         // one more row, without time, for its color
         assert_eq!(found.rows.get(entity), Some(&(rows + more)), "{entity} in {:?}", found.rows.keys());
     }
-    for entity in
-        ["/world", "/world/fixed/shape_0", "/world/tool/shape_0", "/world/arm/base/shape_0", "/world/tool_plan"]
-    {
-        assert!(found.rows.contains_key(entity), "{entity}");
+    for entity in [
+        "/world",
+        "/world/fixed/shape_0",
+        "/world/tool/shape_0",
+        "/world/arm/base/shape_0",
+        "/world/tool_plan",
+        "/world/targets/over\\ the\\ food/axes",
+        "/world/targets/over\\ the\\ food/name",
+    ] {
+        assert!(found.rows.contains_key(entity), "{entity} in {:?}", found.rows.keys());
     }
     assert_eq!(found.rows.get("/plots/joint_torque_limit/shoulder"), Some(&3), "its color and two ends");
     assert!(!found.rows.contains_key("/plots/joint_torque_limit/elbow"), "a joint without limit has no line");

@@ -202,3 +202,41 @@ fn the_shipped_recordings_and_skills_do_what_they_show() {
         assert_eq!(done["success"], true, "{scenario}: {done}");
     }
 }
+
+#[test]
+fn recordings_that_tell_of_another_place_or_stop_in_between_are_refused_in_plain_words() {
+    let folder = project();
+    let at = folder.path();
+    let shown = fs::read_to_string(Path::new(PROJECT).join("assets/demonstrations/cut_cylinder.csv")).unwrap();
+    fs::write(at.join("cut.toml"), shipped("cut_recorded.toml")).unwrap();
+    // the place of every row is changed; rows of comments and the header stay
+    let moved = |change: &dyn Fn(f64) -> f64| {
+        let row = |line: &str| {
+            let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+            match (line.starts_with('#'), fields[1].parse::<f64>()) {
+                (false, Ok(x)) => fields[1] = change(x).to_string(),
+                _ => return format!("{line}\n"),
+            }
+            format!("{}\n", fields.join(","))
+        };
+        shown.lines().map(|line| if line.contains(',') { row(line) } else { format!("{line}\n") }).collect::<String>()
+    };
+    let time_s = |line: &str| line.split(',').next().and_then(|time| time.parse::<f64>().ok());
+    let within = |line: &str| time_s(line).is_some_and(|time_s| (0.5..1.7).contains(&time_s));
+    let paused = shown.lines().filter(|line| !within(line)).map(|line| format!("{line}\n")).collect::<String>();
+    for (text, parts) in [
+        (
+            moved(&|x| x + 100.0),
+            ["m from the food where it comes nearest", "are its unit meters and its frame the world"],
+        ),
+        (paused, ["cut_cylinder.csv:", "a gap in the recording"]),
+    ] {
+        fs::write(at.join("assets/demonstrations/cut_cylinder.csv"), text).unwrap();
+        let output = wield(at, None, &["run", "cut.toml", "--no-record", "--out", "o"]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        for part in parts {
+            assert!(told.contains(part), "{part:?} is missing in:\n{told}");
+        }
+    }
+}

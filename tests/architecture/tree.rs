@@ -1,4 +1,4 @@
-//! The folders of the project as the block of text in README.md.
+//! The folders of the project as the block of text in docs/layout.md.
 
 use std::fs;
 use std::path::Path;

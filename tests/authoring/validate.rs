@@ -38,6 +38,7 @@ fn check(whole: &Value, part: &Value, value: &Value, path: &str, found: &mut Vec
             "oneOf" => wanted.as_array().unwrap().iter().filter(|part| fits(whole, part, value)).count() == 1,
             "anyOf" => wanted.as_array().unwrap().iter().any(|part| fits(whole, part, value)),
             "minimum" => value.as_f64().is_none_or(|value| value >= number(wanted)),
+            "exclusiveMinimum" => value.as_f64().is_none_or(|value| value > number(wanted)),
             "maximum" => value.as_f64().is_none_or(|value| value <= number(wanted)),
             "minItems" => value.as_array().is_none_or(|list| list.len() as f64 >= number(wanted)),
             "maxItems" => value.as_array().is_none_or(|list| list.len() as f64 <= number(wanted)),

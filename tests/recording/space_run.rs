@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3, Vector6};
 use sim::spatial::{
     ArmDescription, BodyDrawing, Drawing, DrawnShape, Event, EventLevel, GrainDescription, LinkDrawing, Observer, Rgba,
-    Sample, SceneDescription, Series, TriangleMesh,
+    Sample, SceneDescription, Series, Target, TriangleMesh,
 };
 
 use super::run::STEPS;
@@ -61,6 +61,8 @@ pub fn scene() -> SceneDescription {
         bodies: vec![body("tray", vec![boxed(0.2)]), body("left", vec![boxed(0.06), mesh()])],
         grains: Some(GrainDescription { half_sizes_m: vec![[0.003, 0.003, 0.004]; GRAINS], color: GRAY }),
         series: vec![Series { plot: "flow [g/s]".into(), name: "flow [g/s]".into() }],
+        targets_world: vec![Target { name: "over the food".into(), world_from_target: Isometry3::identity() }],
+        main_plots: Vec::new(),
         phases: ["approach", "press"].map(String::from).to_vec(),
         tool_path_world: (0..=10).map(|k| Point3::from(tool_at(f64::from(k)))).collect(),
         focus_world: (Point3::new(0.4, 0.0, 0.2), 0.3),

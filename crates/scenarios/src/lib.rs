@@ -43,5 +43,6 @@ pub mod statistics;
 pub mod suggest;
 pub mod sweep;
 pub mod tasks;
+pub mod telemetry;
 pub mod tool_design;
 pub mod trials;

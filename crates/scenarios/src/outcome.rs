@@ -107,18 +107,26 @@ impl Measure {
     /// What went wrong, if the measure missed its limit.
     fn failure(&self) -> Option<String> {
         let limit = self.limit.filter(|_| self.passed == Some(false))?;
-        let value = self.value.map_or_else(|| "not available".into(), |value| format!("{value:.3} {}", self.unit));
-        let bound = match limit {
-            Limit::AtMost(bound) => format!("at most {bound}"),
-            Limit::AtLeast(bound) => format!("at least {bound}"),
+        let with_unit = |value: f64| crate::report::with_unit(Some(value), &self.unit);
+        let (bound, text) = match limit {
+            Limit::AtMost(bound) => (bound, format!("at most {}", with_unit(bound))),
+            Limit::AtLeast(bound) => (bound, format!("at least {}", with_unit(bound))),
         };
-        Some(format!("{} is {value}; expected {bound} {}", self.label, self.unit))
+        let value = self.value.map(|value| {
+            let told = with_unit(value);
+            // a value that rounds to its limit is told in full
+            let is_told_apart = value == bound || told != with_unit(bound);
+            if is_told_apart { told } else { format!("{value} {}", self.unit) }
+        });
+        let value = value.unwrap_or_else(|| "not available".into());
+        Some(format!("{} is {}; expected {text}", self.label, value.trim_end_matches(" 1")))
     }
 
     /// A measure that is reported only.
     #[must_use]
     pub fn reported(name: &str, label: &str, value: impl Into<Option<f64>>, unit: &str) -> Self {
-        let value = value.into().filter(|value| value.is_finite());
+        // a zero has no sign that tells anything: −0 would be written so
+        let value = value.into().filter(|value| value.is_finite()).map(|value| value + 0.0);
         Self { name: name.into(), label: label.into(), value, unit: unit.into(), limit: None, passed: None }
     }
 
@@ -128,5 +136,29 @@ impl Measure {
         let measure = Self::reported(name, label, value, unit);
         let passed = measure.value.is_some_and(|value| limit.holds(value));
         Self { limit: Some(limit), passed: Some(passed), ..measure }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_tells_counts_without_decimals_and_numbers_without_the_unit_one() {
+        let pieces = Measure::judged("pieces_error", "pieces more or fewer than wanted", 1.0, "1", Limit::AtMost(0.0));
+        let told = pieces.failure().expect("missed");
+        assert_eq!(told, "pieces more or fewer than wanted is 1; expected at most 0");
+        let goal = Measure::judged("goal_error_mm", "distance to goal", 12.345_678, "mm", Limit::AtMost(5.0));
+        assert_eq!(goal.failure().expect("missed"), "distance to goal is 12.35 mm; expected at most 5 mm");
+        let close = Measure::judged("goal_error_mm", "distance to goal", 5.000_01, "mm", Limit::AtMost(5.0));
+        assert_eq!(close.failure().expect("missed"), "distance to goal is 5.00001 mm; expected at most 5 mm");
+        let none = Measure::judged("share", "share", None, "1", Limit::AtLeast(0.5));
+        assert_eq!(none.failure().expect("missed"), "share is not available; expected at least 0.5");
+    }
+
+    #[test]
+    fn a_zero_has_no_sign() {
+        let spilt = Measure::reported("spilt_g", "mass spilt", -0.0, "g");
+        assert_eq!(serde_json::to_string(&spilt.value).expect("a number"), "0.0");
     }
 }

@@ -12,6 +12,10 @@ use crate::trials::{Summary, Trial, TrialsReport};
 /// Tables are fitted to terminals of at least this many columns.
 const NARROWEST_TERMINAL: u16 = 60;
 
+/// Said of trials that are all the same run.
+pub const SAME_RUN: &str = "all trials are one and the same run, to the last bit: nothing in this scenario is drawn from its seed, so \
+                            that more trials tell nothing more; [variation] draws values for each seed\n";
+
 /// Writes a result as JSON: indented, its keys in the order of the struct, with a newline at the end.
 ///
 /// # Errors
@@ -57,6 +61,9 @@ pub fn trials_text(report: &TrialsReport) -> String {
         100.0 * high,
         number(100.0 * report.min_success),
     );
+    if report.independent_trials < report.trials.len() {
+        text += SAME_RUN;
+    }
     if !report.measures.is_empty() {
         text += &format!("{}\n", summary_table(&report.measures));
     }
@@ -66,11 +73,12 @@ pub fn trials_text(report: &TrialsReport) -> String {
 /// Describes a campaign: how its runs ended, altogether and for each level of each factor that has few.
 #[must_use]
 pub fn sweep_text(summary: &SweepSummary) -> String {
-    let LevelSummary { done, success, missed, crashed, refused, success_interval_95, .. } = &summary.all;
+    let LevelSummary { done, success, missed, crashed, refused, invalid, success_interval_95, .. } = &summary.all;
     let [low, high] = success_interval_95.map(|share| 100.0 * share);
     let rate = 100.0 * summary.all.success_rate().unwrap_or(0.0);
+    let not_run = not_run(*invalid);
     let mut text = format!(
-        "{}: {done} of {} runs: {success} success, {missed} missed, {crashed} crashed, {refused} refused\n\
+        "{}: {done} of {} runs: {success} success, {missed} missed, {crashed} crashed, {refused} refused{not_run}\n\
          success rate: {rate:.1} % (95 % interval {low:.1} to {high:.1} %, Wilson)\n",
         summary.scenario, summary.planned
     );
@@ -78,6 +86,11 @@ pub fn sweep_text(summary: &SweepSummary) -> String {
         text += &format!("{}\n", levels_table(&factor.key, &factor.levels, &summary.all));
     }
     text
+}
+
+/// How many runs were not made, if any, because their values make no valid scenario.
+pub(crate) fn not_run(invalid: usize) -> String {
+    if invalid == 0 { String::new() } else { format!(", {invalid} invalid (not run)") }
 }
 
 /// A line for each level: runs, success rate with its interval, medians of the judged measures.
@@ -94,7 +107,7 @@ fn levels_table(key: &str, levels: &[LevelSummary], all: &LevelSummary) -> Table
             .measures
             .iter()
             .map(|measure| median(&measure.name).map_or_else(|| "none".into(), |measure| number(measure.median)));
-        let cells = [value, level.done.to_string(), rate, format!("{low:.1} to {high:.1} %")];
+        let cells = [value, level.made().to_string(), rate, format!("{low:.1} to {high:.1} %")];
         table.add_row(cells.into_iter().chain(medians));
     }
     align_right(&mut table, 1..4 + all.measures.len());

@@ -21,8 +21,11 @@ pub struct TrialsReport {
     pub successes: usize,
     /// Share of trials that kept all limits, 0 to 1.
     pub success_rate: f64,
-    /// Wilson's 95 % interval of the success rate.
+    /// Wilson's 95 % interval of the success rate, of the independent trials.
     pub success_interval_95: [f64; 2],
+    /// Trials that tell something of their own: 1 if all are the same run to the last bit, as where nothing is drawn from
+    /// the seed; else all of them.
+    pub independent_trials: usize,
     /// Share of successful trials that was asked for.
     pub min_success: f64,
     /// Mean and worst of each judged measure.
@@ -58,6 +61,8 @@ pub enum Status {
     Crashed,
     /// The scenario makes no sense with this seed.
     Refused,
+    /// The values of its point make no valid scenario: nothing was run.
+    Invalid,
 }
 
 impl Status {
@@ -69,6 +74,7 @@ impl Status {
             Self::Missed => "missed",
             Self::Crashed => "crashed",
             Self::Refused => "refused",
+            Self::Invalid => "invalid",
         }
     }
 }
@@ -127,13 +133,15 @@ impl TrialsReport {
     #[must_use]
     pub fn new(scenario: &str, trials: Vec<Trial>, min_success: f64) -> Self {
         let successes = trials.iter().filter(|trial| trial.status == Status::Success).count();
+        let independent = independent(trials.iter().map(|trial| trial.trajectory_digest.as_deref()));
         Self {
             schema: TRIALS_SCHEMA.into(),
             scenario: scenario.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             successes,
             success_rate: if trials.is_empty() { 0.0 } else { successes as f64 / trials.len() as f64 },
-            success_interval_95: wilson(successes, trials.len()),
+            success_interval_95: wilson(successes.min(independent), independent),
+            independent_trials: independent,
             min_success,
             measures: summaries(&trials),
             trials,
@@ -151,6 +159,25 @@ impl TrialsReport {
     pub fn success(&self) -> bool {
         self.success_rate >= self.min_success
     }
+}
+
+/// How many of some trials, of which the digests of their trajectories are known, tell something of their own: one, if all
+/// went alike to the last bit.
+#[must_use]
+pub fn independent<'a>(digests: impl Iterator<Item = Option<&'a str>>) -> usize {
+    let digests: Vec<_> = digests.collect();
+    let first = digests.first().copied().flatten();
+    let same = first.is_some() && digests.iter().all(|digest| *digest == first);
+    if same { 1 } else { digests.len() }
+}
+
+/// Runs, and successes among them, that are not one and the same run to the last bit; a run without a digest counts.
+#[must_use]
+pub fn distinct<'a>(runs: impl Iterator<Item = (Option<&'a str>, Status)>) -> (usize, usize) {
+    let mut known = std::collections::BTreeSet::new();
+    let first = runs.filter(|(digest, _)| digest.is_none_or(|digest| known.insert(digest)));
+    first
+        .fold((0, 0), |(count, successes), (_, status)| (count + 1, successes + usize::from(status == Status::Success)))
 }
 
 fn summaries(trials: &[Trial]) -> Vec<Summary> {
@@ -204,5 +231,24 @@ mod tests {
             report.measures.iter().map(|measure| (measure.mean, measure.worst, measure.count)).collect();
         assert_eq!(found, [(Some(2.0), Some(3.0), 2), (Some(2.0), Some(1.0), 2)]);
         assert!(report.any(Status::Crashed) && report.success());
+    }
+
+    #[test]
+    fn trials_that_are_all_the_same_run_count_as_one() {
+        let trial = |seed, digest: &str| Trial {
+            seed,
+            status: Status::Success,
+            measures: vec![],
+            failures: vec![],
+            trajectory_digest: Some(digest.into()),
+        };
+        let report = |digests: [&str; 3]| {
+            let trials = digests.iter().zip(1..).map(|(digest, seed)| trial(seed, digest)).collect();
+            TrialsReport::new("hold", trials, 1.0)
+        };
+        let (same, own) = (report(["a", "a", "a"]), report(["a", "a", "b"]));
+        assert_eq!((same.independent_trials, own.independent_trials), (1, 3));
+        assert_eq!((same.success_rate, same.success_interval_95), (1.0, wilson(1, 1)));
+        assert_eq!(own.success_interval_95, wilson(3, 3));
     }
 }

@@ -43,8 +43,12 @@ pub struct Summary {
 /// The scenario of a planned run.
 ///
 /// # Errors
-/// In words, if a file that it names was changed or went away since it was planned: every scenario was read then.
+/// In words, if its values make no valid scenario, or if a file that it names was changed or went away since it was
+/// planned: every scenario was read then.
 pub fn load_run(manifest: &Manifest, run: &PlannedRun, assets: &Assets) -> Result<ResolvedScenario, String> {
+    if !run.invalid.is_empty() {
+        return Err(format!("its values make no valid scenario: {}", run.invalid.join("; ")));
+    }
     let loaded = load_text(&manifest.base.file, &manifest.base.text, &manifest.changes(run), assets);
     let scenario = loaded.map_err(|problems| problems.first().map_or_else(String::new, ToString::to_string))?;
     if super::run_id(&scenario, run.seed)? == run.run_id {
@@ -126,6 +130,9 @@ impl Pool<'_> {
 
     fn row(&self, run: &PlannedRun) -> Result<Row, FolderError> {
         let started = Instant::now();
+        if !run.invalid.is_empty() {
+            return Ok(Row::invalid(run, started.elapsed().as_secs_f64()));
+        }
         let changed = |reason| FolderError::Changed { index: run.index, reason };
         let scenario = load_run(self.manifest, run, self.execution.assets).map_err(changed)?;
         let result = (self.execution.run)(&scenario, run.seed);

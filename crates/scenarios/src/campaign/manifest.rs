@@ -8,10 +8,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{RunId, run_id};
-use crate::assets::Assets;
-use crate::diagnostic::Diagnostic;
-use crate::scenario::{Change, ResolvedScenario, load_text};
+use super::RunId;
+use crate::scenario::Change;
 
 /// Version of the layout of manifests and journals.
 pub const CAMPAIGN_SCHEMA: &str = "wield.campaign/1";
@@ -60,6 +58,9 @@ pub struct PlannedRun {
     pub seed: u64,
     /// The value of each factor, in their order.
     pub values: Vec<toml::Value>,
+    /// Why these values make no valid scenario, one sentence per problem; empty, and then not written, if they make one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub invalid: Vec<String>,
 }
 
 /// Everything that a campaign runs.
@@ -180,47 +181,4 @@ impl Manifest {
         }
         Ok(Self { base, runs })
     }
-}
-
-/// Plans a campaign: one run for each of `points`, which are values of the factors with a seed.
-///
-/// Each distinct point is loaded, so that what would be refused is refused here, before anything is run. `progress` is
-/// told how many points have been looked at.
-///
-/// # Errors
-/// The [`Diagnostic`]s of the first point that is refused.
-pub fn plan(
-    scenario: &ResolvedScenario,
-    file: &Path,
-    assets: &Assets,
-    factors: Vec<Factor>,
-    points: &[(Vec<toml::Value>, u64)],
-    progress: &dyn Fn(usize),
-) -> Result<Manifest, Vec<Diagnostic>> {
-    let base = Base {
-        schema: CAMPAIGN_SCHEMA.into(),
-        version: env!("CARGO_PKG_VERSION").into(),
-        scenario: scenario.name.clone(),
-        task: scenario.kind().into(),
-        file: file.to_owned(),
-        assets: assets.root().to_owned(),
-        text: scenario.source.clone(),
-        factors,
-        runs: points.len() as u64,
-    };
-    let mut manifest = Manifest { base, runs: Vec::with_capacity(points.len()) };
-    let mut last: Option<(&[toml::Value], ResolvedScenario)> = None;
-    for (index, (values, seed)) in points.iter().enumerate() {
-        let pairs = manifest.base.factors.iter().zip(values);
-        let changes: Vec<Change> = pairs.map(|(factor, value)| Change::new(&factor.key, value.clone())).collect();
-        let loaded = match last.take() {
-            Some((same, loaded)) if same == values.as_slice() => loaded,
-            _ => load_text(file, &manifest.base.text, &changes, assets)?,
-        };
-        let run_id = run_id(&loaded, *seed).map_err(|reason| vec![Diagnostic::of_file(file, reason)])?;
-        manifest.runs.push(PlannedRun { index: index as u64, run_id, seed: *seed, values: values.clone() });
-        last = Some((values, loaded));
-        progress(index + 1);
-    }
-    Ok(manifest)
 }

@@ -62,6 +62,13 @@ impl Row {
         }
     }
 
+    /// The row of a run whose values make no valid scenario, so that it was not made.
+    #[must_use]
+    pub fn invalid(run: &PlannedRun, wall_s: f64) -> Self {
+        let failures = run.invalid.clone();
+        Self { failures, ..Self::without_outcome(run, Status::Invalid, String::new(), wall_s) }
+    }
+
     /// Value of a measure.
     #[must_use]
     pub fn value(&self, measure: &str) -> Option<f64> {

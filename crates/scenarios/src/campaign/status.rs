@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{CampaignFolder, FolderError, Manifest};
 use crate::statistics::wilson;
-use crate::trials::Status;
+use crate::trials::{Status, distinct};
 
 /// Version of the layout of a progress report.
 pub const STATUS_SCHEMA: &str = "wield.status/1";
@@ -30,7 +30,9 @@ pub struct CampaignStatus {
     pub crashed: usize,
     /// The scenario makes no sense with these values.
     pub refused: usize,
-    /// Wilson's 95 % interval of the share of runs that kept all limits.
+    /// The values of the point make no valid scenario: nothing was run.
+    pub invalid: usize,
+    /// Wilson's 95 % interval of the share of runs that kept all limits, of those that could be run.
     pub success_interval_95: [f64; 2],
     /// Clock time of all runs that ended, s.
     pub wall_s: f64,
@@ -49,7 +51,7 @@ impl CampaignStatus {
     /// # Errors
     /// A [`FolderError`].
     pub fn of(folder: &CampaignFolder, manifest: &Manifest) -> Result<Self, FolderError> {
-        let mut ended: Vec<Option<Status>> = vec![None; manifest.runs.len()];
+        let mut ended: Vec<Option<(Status, Option<String>)>> = vec![None; manifest.runs.len()];
         let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
         let mut wall_s = 0.0;
         folder.rows(&mut |path, _, row| {
@@ -64,11 +66,13 @@ impl CampaignStatus {
                     *reasons.entry(without_numbers(reason)).or_default() += 1;
                 }
             }
-            *mark = Some(row.status);
+            *mark = Some((row.status, row.trajectory_digest));
             Ok(())
         })?;
-        let count = |status| ended.iter().filter(|&&found| found == Some(status)).count();
-        let done = ended.iter().flatten().count();
+        let count = |status| ended.iter().flatten().filter(|(found, _)| *found == status).count();
+        let (done, invalid) = (ended.iter().flatten().count(), count(Status::Invalid));
+        let made = ended.iter().flatten().filter(|(status, _)| *status != Status::Invalid);
+        let (runs, successes) = distinct(made.map(|(status, digest)| (digest.as_deref(), *status)));
         let mut reasons: Vec<(String, usize)> = reasons.into_iter().collect();
         reasons.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
         reasons.truncate(LISTED);
@@ -82,7 +86,8 @@ impl CampaignStatus {
             missed: count(Status::Missed),
             crashed: count(Status::Crashed),
             refused: count(Status::Refused),
-            success_interval_95: wilson(count(Status::Success), done),
+            invalid,
+            success_interval_95: wilson(successes, runs),
             wall_s,
             reasons,
             first_missing: missing.map(|(run, _)| run.index).take(10).collect(),
@@ -92,7 +97,13 @@ impl CampaignStatus {
     /// Clock time of one run, s; `None` before the first ended.
     #[must_use]
     pub fn wall_per_run_s(&self) -> Option<f64> {
-        (self.done > 0).then(|| self.wall_s / self.done as f64)
+        (self.made() > 0).then(|| self.wall_s / self.made() as f64)
+    }
+
+    /// Runs that ended and could be run at all.
+    #[must_use]
+    pub fn made(&self) -> usize {
+        self.done - self.invalid
     }
 
     /// Runs that have not ended.

@@ -6,6 +6,7 @@ use super::{Exit, say, say_error, say_json};
 use crate::campaign::submission::{ENGINES, Engine, Submission, shard_count};
 use crate::campaign::{CampaignFolder, CampaignStatus, FolderError, Manifest, TableFormat, write_tables};
 use crate::files::write_whole;
+use crate::report::not_run;
 
 pub const STATUS_HELP: &str = "\
 The answer comes from the files in the folder alone: the manifest, which lists all runs, and the journals, which hold a
@@ -142,12 +143,12 @@ pub fn status(arguments: &StatusArguments) -> Exit {
 }
 
 fn status_text(status: &CampaignStatus) -> String {
-    let CampaignStatus { scenario, planned, done, success, missed, crashed, refused, .. } = status;
+    let CampaignStatus { scenario, planned, done, success, missed, crashed, refused, invalid, .. } = status;
     let [low, high] = status.success_interval_95.map(|share| 100.0 * share);
     let mut text = format!("{scenario}: {done} of {planned} runs ended: {success} success, {missed} missed, ");
-    text += &format!("{crashed} crashed, {refused} refused\n");
+    text += &format!("{crashed} crashed, {refused} refused{}\n", not_run(*invalid));
     if let Some(per_run_s) = status.wall_per_run_s() {
-        text += &format!("success rate: {:.1} % ", 100.0 * *success as f64 / *done as f64);
+        text += &format!("success rate: {:.1} % ", 100.0 * *success as f64 / status.made() as f64);
         text += &format!("(95 % interval {low:.1} to {high:.1} %, Wilson); {per_run_s:.2} s a run\n");
     }
     for (reason, count) in &status.reasons {

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::plan::planned;
+use super::plan::{invalid_points, planned};
 use super::{Exit, SetArguments, assets_for, say, say_aside, say_problems};
 use crate::diagnostic::Diagnostic;
 use crate::scenario::notes;
@@ -10,7 +10,8 @@ use crate::sweep::is_sweep;
 use crate::tool_design::{is_design, load_design};
 
 pub const AFTER_HELP: &str = "\
-Of a sweep file every point is checked: each must make a valid scenario.
+Of a sweep file every point is checked. In a grid each must make a valid scenario; where points are drawn, or with
+invalid_points = \"record\" in [sweep], it is told how many do not.
 
 Examples:
   wield check scenarios/*.toml
@@ -68,7 +69,8 @@ fn check_scenario(file: &Path, set: &SetArguments, assets: Option<&Path>) -> Res
 /// Remarks on a sweep that can be run.
 fn check_sweep(file: &Path, set: &SetArguments, assets: Option<&Path>) -> Result<Vec<String>, Vec<Diagnostic>> {
     refuse_changes(file, set, "a sweep file", "a [[factor]] with one value in the file instead")?;
-    planned(file, assets, &|_, _| {}).map(|plan| notes(&plan.sweep.scenario))
+    planned(file, assets, &|_, _| {})
+        .map(|plan| notes(&plan.sweep.scenario).into_iter().chain(invalid_points(&plan)).collect())
 }
 
 /// Remarks on a design that can be run.

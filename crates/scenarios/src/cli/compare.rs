@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::comparing::{Comparing, RecordedSeed, refuse};
 use super::{Exit, assets_for, load_told, say_problems};
 use crate::assets::Assets;
-use crate::campaign::{CampaignFolder, Factor, Manifest, plan};
+use crate::campaign::{CampaignFolder, Factor, InvalidPoints, Manifest, plan};
 use crate::comparison::{Variation, points, variant_names};
 use crate::scenario::{LARGEST_SEED, ResolvedScenario};
 
@@ -28,7 +28,7 @@ Examples:
   wield compare scenarios/push_compare.toml --vary execution.mode=closed_loop,open_loop --measure duration_s
   wield compare scenarios/cut_grape.toml --tool paring --tool serrated --trials 10 --json | jq .success
 
-Exit codes: 0 compared, whatever came out; 2 bad input (nothing written); 3 a run crashed, or results could not be written.";
+Exit codes: 0 compared, whatever came out; 2 bad input (nothing written, but for the\nfirst run of each variant if --measure names none that these have); 3 a run crashed, or results could not be written.";
 
 /// Options of `wield compare`.
 #[derive(Debug, clap::Args)]
@@ -93,8 +93,9 @@ fn comparing<'a>(
     let factors = variations.iter().map(|variation| Factor { key: variation.key.clone() }).collect();
     let with_seeds = |point: Vec<toml::Value>| seeds.iter().map(move |seed| (point.clone(), *seed));
     let runs: Vec<_> = points.into_iter().flat_map(with_seeds).collect();
-    let manifest = plan(scenario, &arguments.file, assets, factors, &runs, &|_| {}).map_err(|problems| {
-        say_problems(&problems);
+    let planned = plan(scenario, &arguments.file, assets, factors, &runs, InvalidPoints::Refuse, &|_| {});
+    let manifest = planned.map_err(|refused| {
+        say_problems(&refused.problems);
         Exit::BadInput
     })?;
     let names = variant_names(&variations);

@@ -1,5 +1,7 @@
 //! Carries out a comparison whose runs are planned: makes them, compares, reports.
 
+use std::sync::atomic::AtomicBool;
+
 use super::observe::{self, RunToRecord};
 use super::progress::TrialsProgress;
 use super::seed_run::RECORDING;
@@ -9,7 +11,7 @@ use crate::campaign::{
     CampaignFolder, Execution, FolderError, Manifest, ManifestError, Row, Shard, TableFormat, execute as carry_out,
     load_run, write_tables,
 };
-use crate::comparison::{Comparison, compare, page, text};
+use crate::comparison::{Comparison, check_measures, compare, page, text};
 use crate::files::{prepare_folder, write_whole};
 use crate::scenario::ResolvedScenario;
 use crate::trials::Status;
@@ -60,7 +62,12 @@ impl Comparing<'_> {
                 .map_err(|error| refuse(unwritable(self.folder.path(), &error, "--out")))?;
         }
         self.folder.prepare(&self.manifest).map_err(told)?;
-        self.make()?;
+        let stop = interrupt::watch();
+        if !self.measures.is_empty() {
+            self.check_measures(&stop)?;
+        }
+        self.make(Shard::WHOLE, &stop)?;
+        write_tables(&self.folder, &self.manifest, &[TableFormat::Parquet]).map_err(told)?;
         let rows = self.folder.ordered_rows(&self.manifest).map_err(told)?;
         let compared = compare(&self.manifest, &self.title, &rows, &self.names, &self.measures);
         let comparison = compared.map_err(|unknown| refuse(unknown.to_string()))?;
@@ -75,23 +82,32 @@ impl Comparing<'_> {
         })
     }
 
-    /// Makes the runs that are not done yet.
-    fn make(&self) -> Result<(), Exit> {
-        let stop = interrupt::watch();
+    /// Makes the first run of each variant, and refuses measures that runs do not have before all others are made.
+    fn check_measures(&self, stop: &AtomicBool) -> Result<(), Exit> {
+        let per_variant = self.manifest.runs.len() / self.names.len().max(1);
+        let firsts = Shard { index: 0, count: per_variant.max(1) as u64 };
+        self.make(firsts, stop)?;
+        let rows = self.folder.ordered_rows(&self.manifest).map_err(told)?;
+        let first: Vec<&Row> = rows.iter().filter(|row| firsts.holds(row.index)).collect();
+        check_measures(&first, &self.measures).map_err(|unknown| {
+            let kept = self.folder.path().display();
+            refuse(format!(
+                "{unknown}; the runs made so far are kept in {kept}, and the same command goes on with them"
+            ))
+        })
+    }
+
+    /// Makes the runs of a shard that are not done yet.
+    fn make(&self, shard: Shard, stop: &AtomicBool) -> Result<(), Exit> {
         let threads = self.threads.map_or_else(available_threads, usize::from);
         let done = self.folder.done(&self.manifest).map_err(told)?;
-        let progress = TrialsProgress::new(done.iter().filter(|done| !**done).count(), self.quiet);
+        let open = (0..).zip(&done).filter(|(index, done)| shard.holds(*index) && !**done).count();
+        let progress = TrialsProgress::new(open, self.quiet);
         let run = |scenario: &ResolvedScenario, seed: u64| {
             panics::catch(|| crate::pipeline::run(scenario, seed, &mut (), &|_, _| {}))
         };
-        let execution = Execution {
-            run: &run,
-            assets: self.assets,
-            shard: Shard::WHOLE,
-            threads,
-            stop: &stop,
-            each: &|_| progress.one_done(),
-        };
+        let execution =
+            Execution { run: &run, assets: self.assets, shard, threads, stop, each: &|_| progress.one_done() };
         let summary = carry_out(&self.folder, &self.manifest, &execution);
         progress.finish();
         let left = summary.map_err(told)?.left;
@@ -99,7 +115,7 @@ impl Comparing<'_> {
             say_aside(&format!("stopped: {left} runs are left; the same command goes on with them"));
             return Err(Exit::Interrupted);
         }
-        write_tables(&self.folder, &self.manifest, &[TableFormat::Parquet]).map(|_| ()).map_err(told)
+        Ok(())
     }
 
     /// Records one seed of every variant; returns the file's name.

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use super::comparing::{Comparing, RecordedSeed};
 use super::{Exit, assets_for, interrupt, keep_json, panics, say, say_aside, say_error, say_problems, unwritable};
 use crate::assets::Assets;
-use crate::campaign::{Attempt, CampaignFolder, Factor, Row, plan};
+use crate::campaign::{Attempt, CampaignFolder, Factor, InvalidPoints, Row, plan};
 use crate::files::{prepare_folder, write_whole};
 use crate::scenario::ResolvedScenario;
 use crate::tool_design::{
@@ -235,11 +235,13 @@ impl Job<'_> {
             .collect();
         let changes = self.task.changes(best);
         let factors = changes.into_iter().map(|change| Factor { key: change.key }).collect();
-        let manifest = plan(&self.task.scenario, &self.task.scenario_file, &self.assets, factors, &points, &|_| {})
-            .map_err(|problems| {
-                say_problems(&problems);
+        let (scenario, file) = (&self.task.scenario, &self.task.scenario_file);
+        let manifest = plan(scenario, file, &self.assets, factors, &points, InvalidPoints::Refuse, &|_| {}).map_err(
+            |refused| {
+                say_problems(&refused.problems);
                 Exit::Crashed
-            })?;
+            },
+        )?;
         let start_name = self.task.start.0.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Comparing {
             title: format!("{} against {start_name}, from which it was designed", self.task.name),

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::progress::RunProgress;
-use super::{Exit, SetArguments, panics, say, say_aside, say_error, unwritable};
+use super::{Exit, SetArguments, overwrite, panics, say, say_aside, say_error, unwritable};
 use crate::files::{probe, write_whole};
 use crate::pipeline::{RunError, learn};
 use crate::scenario::{KeptSkills, LARGEST_SEED, ResolvedScenario, notes};
@@ -47,8 +47,9 @@ pub fn execute(arguments: &LearnArguments, assets: Option<&Path>) -> Exit {
     let Some(scenario) = arguments.set.load_told(&arguments.file, assets) else { return Exit::BadInput };
     let seed = arguments.seed.unwrap_or(scenario.header().seed);
     let out = arguments.out.clone().unwrap_or_else(|| format!("{}.skills.toml", scenario.name).into());
-    if let Err(error) = probe(&out) {
-        say_error(&unwritable(&out, &error, "--out"));
+    let writable = probe(&out).map_err(|error| unwritable(&out, &error, "--out"));
+    if let Err(reason) = writable.and_then(|()| overwrite::only(&out, overwrite::SKILLS, "--out")) {
+        say_error(&reason);
         return Exit::BadInput;
     }
     if !arguments.quiet {

@@ -15,6 +15,7 @@ mod list;
 mod man;
 mod new;
 mod observe;
+mod overwrite;
 mod panics;
 mod plan;
 mod progress;
@@ -22,6 +23,7 @@ mod reproduce;
 mod row;
 mod run;
 mod schema;
+mod seed_folder;
 mod seed_run;
 mod shard;
 mod sweep;
@@ -38,7 +40,7 @@ use crate::assets::Assets;
 use crate::diagnostic::{Diagnostic, color_wanted};
 use crate::files::{prepare_folder, write_whole};
 use crate::report::json;
-use crate::scenario::{Change, ResolvedScenario, Source, load_text};
+use crate::scenario::{Change, GivenBy, ResolvedScenario, Source, load_changed};
 use crate::sweep::is_sweep;
 
 /// How the program ends.
@@ -243,7 +245,7 @@ impl SetArguments {
             return Err(vec![problem.help([format!("its runs are made by `wield sweep {}`", file.display())])]);
         }
         let source = Source::read(file).map_err(|problem| vec![*problem])?;
-        load_text(file, &source.text, &self.changes, &assets_for(assets, Some(file)))
+        load_changed(file, &source.text, &self.changes, GivenBy::Option, &assets_for(assets, Some(file)))
     }
 
     /// Loads a scenario with these changes; says what is wrong with it if that fails.

@@ -29,6 +29,15 @@ pub struct Destination {
     pub serve: Option<u16>,
     /// Whether a viewer is started.
     pub view: bool,
+    /// Whether the telemetry is kept beside the outcome.
+    pub telemetry: bool,
+}
+
+impl Destination {
+    /// Whether a recorder is wanted.
+    fn records(&self) -> bool {
+        self.file.is_some() || self.connect.is_some() || self.serve.is_some() || self.view
+    }
 }
 
 /// A server that viewers may come to after the run, for as long as this lives.
@@ -62,10 +71,10 @@ pub fn watch(
     run: impl FnOnce(&mut dyn Onlooker) -> Result<Report, RunError>,
 ) -> Result<Watched, String> {
     use crate::recording::{Recorder, RecorderOptions};
-    if *destination == Destination::default() {
+    if !destination.records() {
         return Ok(Watched { result: run(&mut ()), warnings: Vec::new(), serving: None });
     }
-    let Destination { file, connect, serve, view } = destination.clone();
+    let Destination { file, connect, serve, view, .. } = destination.clone();
     let options = RecorderOptions { file, connect, serve, view };
     let mut recorder = Recorder::start(&options, scenario, seed).map_err(|error| error.to_string())?;
     let result = run(&mut recorder);

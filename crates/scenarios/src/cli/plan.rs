@@ -8,14 +8,15 @@ use serde::Serialize;
 use super::campaign::fail;
 use super::{Exit, assets_for, say, say_aside, say_error, say_json, say_problems, unwritable};
 use crate::assets::Assets;
-use crate::campaign::{CampaignFolder, CampaignStatus, Manifest};
+use crate::campaign::{CampaignFolder, CampaignStatus, Manifest, PlannedRun};
 use crate::diagnostic::Diagnostic;
 use crate::files::{prepare_folder, remove_empty};
 use crate::scenario::notes;
 use crate::sweep::{Design, Sweep, load_sweep};
 
 pub const AFTER_HELP: &str = "\
-Every point is read as a scenario now: mistakes are found before anything is run. The plan depends on the files alone, so
+Every point is read as a scenario now: mistakes are found before anything is run. A point that makes no valid scenario is
+refused in a grid, and kept as rows of status invalid where points are drawn; `invalid_points` in [sweep] says otherwise. The plan depends on the files alone, so
 planning again changes nothing; what was planned differently needs another folder.
 
 Files, in DIR (by default runs/<sweep> in the current folder):
@@ -64,6 +65,8 @@ struct PlanReport<'a> {
     first_seed: u64,
     trials: u64,
     runs: usize,
+    /// Of these, those that will not be made: their values make no valid scenario.
+    invalid: usize,
     done: usize,
     /// Time on one core that the runs which are left will take, s, by those that ended; `null` if none did.
     left_s: Option<f64>,
@@ -93,6 +96,7 @@ pub fn execute(arguments: &PlanArguments, assets: Option<&Path>) -> Exit {
             first_seed: plan.sweep.first_seed,
             trials: plan.sweep.trials,
             runs,
+            invalid: invalid_runs(&plan.manifest).count(),
             done,
             left_s,
         });
@@ -160,6 +164,7 @@ pub fn prepare(
     })?;
     if !quiet {
         notes(&plan.sweep.scenario).iter().for_each(|note| say_aside(&format!("note: {note}")));
+        invalid_points(&plan).iter().for_each(|note| say_aside(&format!("note: {note}")));
         balance(plan.sweep.design).iter().for_each(|note| say_aside(&format!("note: {note}")));
     }
     let path = out.map_or_else(|| Path::new("runs").join(&plan.sweep.name), Path::to_owned);
@@ -175,6 +180,21 @@ pub fn prepare(
             Err(fail(&error))
         }
     }
+}
+
+fn invalid_runs(manifest: &Manifest) -> impl Iterator<Item = &PlannedRun> {
+    manifest.runs.iter().filter(|run| !run.invalid.is_empty())
+}
+
+/// A remark on points that make no valid scenario.
+pub fn invalid_points(plan: &Plan) -> Option<String> {
+    let first = invalid_runs(&plan.manifest).next()?;
+    let (invalid, runs) = (invalid_runs(&plan.manifest).count(), plan.manifest.runs.len());
+    let reason = first.invalid.first().map_or("", String::as_str);
+    Some(format!(
+        "found {invalid} of {runs} runs without a valid scenario, kept as rows of status invalid; the first is run {}: {reason}",
+        first.index
+    ))
 }
 
 /// A remark on a number of points that leaves Sobol' points out of balance.

@@ -133,7 +133,7 @@ impl SweepProgress {
     pub fn one_done(&self, status: Status) {
         let mut told = self.told.lock().unwrap_or_else(|broken| broken.into_inner());
         told.made += 1;
-        told.failed += usize::from(status != Status::Success);
+        told.failed += usize::from(!matches!(status, Status::Success | Status::Invalid));
         if self.quiet || self.started.elapsed() < PATIENCE {
             return;
         }

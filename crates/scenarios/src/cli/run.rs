@@ -1,13 +1,18 @@
 //! `wield run`: a scenario under one seed or several.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use rayon::prelude::*;
 
 use super::observe::{self, Destination, Serving};
 use super::progress::{RunProgress, TrialsProgress};
+use super::seed_folder::other_seeds;
 use super::seed_run::{Failure, Finished, Pipeline, RECORDING, run_seed};
-use super::{Exit, SetArguments, keep_json, row, say, say_aside, say_error, say_json, seed_folder, unwritable};
+use super::{
+    Exit, SetArguments, interrupt, keep_json, overwrite, row, say, say_aside, say_error, say_json, seed_folder,
+    unwritable,
+};
 use crate::files::{prepare_folder, probe, remove_empty};
 use crate::report::{run_text, trials_text};
 use crate::scenario::{LARGEST_SEED, ResolvedScenario, notes};
@@ -18,19 +23,23 @@ Files, in DIR (by default runs/<scenario> in the current folder):
   seed-<n>/outcome.json    the measures and the verdict; the same run gives the same bytes
   seed-<n>/scenario.toml   the scenario with every default written out and the seed: run it again as it was
   seed-<n>/recording.rrd   the recording, for the Rerun viewer
+  seed-<n>/telemetry.parquet  with --telemetry: joints, tool, references, object, curves, one row per control period
   trials.json              with --trials: all seeds, the success rate, mean and worst of the judged measures
+A run is written to seed-<n>.partial, and takes the place of an earlier one when it has ended.
 
 Examples:
   wield run scenarios/push_stick.toml
   wield run scenarios/push_stick.toml --seed 7 --out results/push
   wield run scenarios/push_stick.toml --trials 50 --min-success 0.9
   wield run scenarios/push_stick.toml --json --no-record | jq .measures
+  wield run scenarios/push_stick.toml --telemetry
   wield run scenarios/push_stick.toml --set object.table_friction=0.4 --set tool.asset:mass_kg=0.02
 
 A single run of a sweep, with its recording, in runs/push_friction/row-7/:
   wield run runs/push_friction --row 7
 
-Exit codes: 0 success, 1 limits missed, 2 bad input (nothing written), 3 crashed or diverged, or not the same as before.";
+Exit codes: 0 success, 1 limits missed, 2 bad input (nothing written), 3 crashed or diverged, or not the same as before,
+130 Ctrl-C (with --trials those that have ended are kept; a second Ctrl-C stops at once).";
 
 /// Options of `wield run`.
 #[derive(Debug, clap::Args)]
@@ -66,6 +75,9 @@ pub struct RunArguments {
     /// With several trials: record each into its seed's folder
     #[arg(long, conflicts_with = "record")]
     record_all: bool,
+    /// Keep the state at every control instant as a table, telemetry.parquet
+    #[arg(long)]
+    telemetry: bool,
     /// Stream the recording to a running viewer
     #[arg(long, value_name = "URL")]
     connect: Option<String>,
@@ -86,18 +98,20 @@ pub struct RunArguments {
 impl RunArguments {
     /// Where a run is recorded whose files go to `folder`.
     pub fn destination(&self, folder: &Path) -> Destination {
-        let Self { no_record, record, record_all, connect, serve, view, trials, .. } = self;
+        let Self { no_record, record, record_all, connect, serve, view, telemetry, trials, .. } = self;
         if *no_record || !observe::AVAILABLE || (*trials > 1 && !record_all) {
-            return Destination::default();
+            return Destination { telemetry: *telemetry, ..Destination::default() };
         }
         let file = record.clone().unwrap_or_else(|| folder.join(RECORDING));
-        Destination { file: Some(file), connect: connect.clone(), serve: *serve, view: *view }
+        Destination { file: Some(file), connect: connect.clone(), serve: *serve, view: *view, telemetry: *telemetry }
     }
 
     /// Makes sure that what is asked for can be recorded.
     pub fn check_recording(&self) -> Result<(), String> {
         check_recording(self)?;
-        self.record.as_ref().map_or(Ok(()), |file| probe(file).map_err(|error| unwritable(file, &error, "--record")))
+        let Some(file) = &self.record else { return Ok(()) };
+        probe(file).map_err(|error| unwritable(file, &error, "--record"))?;
+        overwrite::only(file, overwrite::RECORDING, "--record")
     }
 
     /// Makes one run and tells about it, on stdout and in `folder`.
@@ -203,9 +217,11 @@ impl<'a> Job<'a> {
     fn run_trials(&self) -> Exit {
         let seeds = self.first_seed..self.first_seed + u64::from(self.arguments.trials);
         let progress = TrialsProgress::new(self.arguments.trials as usize, self.arguments.quiet);
+        let stop = interrupt::watch();
+        let unless_stopped = |seed| (!stop.load(Ordering::Relaxed)).then(|| self.trial(seed, &progress));
         let trials = || -> Vec<(Trial, Vec<String>)> {
             let seeds: Vec<u64> = seeds.collect();
-            seeds.into_par_iter().map(|seed| self.trial(seed, &progress)).collect()
+            seeds.into_par_iter().filter_map(unless_stopped).collect()
         };
         let threads = self.arguments.threads.map_or(0, usize::from);
         let results = match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {
@@ -218,7 +234,16 @@ impl<'a> Job<'a> {
         progress.finish();
         let (trials, warnings): (Vec<_>, Vec<_>) = results.into_iter().unzip();
         warnings.iter().flatten().for_each(|warning| say_aside(&format!("warning: {warning}")));
-        self.report_trials(&TrialsReport::new(&self.scenario.name, trials, self.arguments.min_success))
+        let missing = self.arguments.trials as usize - trials.len();
+        if missing > 0 {
+            say_aside(&format!("stopped: {missing} of {} trials were not begun", self.arguments.trials));
+            if trials.is_empty() {
+                remove_empty(&self.created);
+                return Exit::Interrupted;
+            }
+        }
+        let exit = self.report_trials(&TrialsReport::new(&self.scenario.name, trials, self.arguments.min_success));
+        if missing > 0 { Exit::Interrupted } else { exit }
     }
 
     fn trial(&self, seed: u64, progress: &TrialsProgress) -> (Trial, Vec<String>) {
@@ -241,6 +266,7 @@ impl<'a> Job<'a> {
         if kept != Exit::Success {
             return kept;
         }
+        self.tell_of_other_seeds();
         let written = if self.arguments.json {
             say_json(report)
         } else if self.arguments.quiet {
@@ -249,6 +275,27 @@ impl<'a> Job<'a> {
             say(&format!("{}results: {}\n", trials_text(report), self.out.display()))
         };
         if report.any(Status::Crashed) { Exit::Crashed } else { written.unless_missed(report.success()) }
+    }
+}
+
+/// How many other seeds are named.
+const NAMED_SEEDS: usize = 5;
+
+impl Job<'_> {
+    /// Results of other seeds in the same folder are easily taken for these.
+    fn tell_of_other_seeds(&self) {
+        let others = other_seeds(&self.out, self.first_seed..self.first_seed + u64::from(self.arguments.trials));
+        if others.is_empty() {
+            return;
+        }
+        let named: Vec<String> = others.iter().take(NAMED_SEEDS).map(|seed| format!("seed-{seed}")).collect();
+        let more = others.len().saturating_sub(NAMED_SEEDS);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        say_aside(&format!(
+            "warning: {} also holds {}{more}, of an earlier call; trials.json does not count them",
+            self.out.display(),
+            named.join(", ")
+        ));
     }
 }
 

@@ -80,6 +80,32 @@ fn a_refused_run_leaves_nothing() {
 }
 
 #[test]
+fn a_refused_run_takes_nothing_away() {
+    let out = tempfile::tempdir().unwrap();
+    fs::create_dir_all(out.path().join("seed-15")).unwrap();
+    for name in ["outcome.json", "scenario.toml", "recording.rrd"] {
+        fs::write(out.path().join("seed-15").join(name), "old").unwrap();
+    }
+    for trials in ["1", "2"] {
+        assert_eq!(run(out.path(), &["--seed", "15", "--trials", trials]), Exit::BadInput);
+        for name in ["outcome.json", "scenario.toml", "recording.rrd"] {
+            assert_eq!(fs::read_to_string(out.path().join("seed-15").join(name)).unwrap(), "old");
+        }
+    }
+    assert_eq!(fs::read_dir(out.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_scenario_is_not_replaced_by_a_recording() {
+    let out = tempfile::tempdir().unwrap();
+    let mine = out.path().join("mine.toml");
+    fs::write(&mine, "[scenario]\n").unwrap();
+    let line = ["run", "x.toml", "--record", mine.to_str().unwrap()];
+    assert!(Line::try_parse_from(line).unwrap().run.check_recording().is_err());
+    assert_eq!(fs::read_to_string(&mine).unwrap(), "[scenario]\n");
+}
+
+#[test]
 fn a_crash_leaves_no_outcome_of_an_earlier_run() {
     let out = tempfile::tempdir().unwrap();
     fs::create_dir_all(out.path().join("seed-13")).unwrap();

@@ -31,6 +31,7 @@ A sweep file names a scenario, keys of it that are varied, and seeds, which are 
   scenario = \"../push_transfer_l.toml\"      # relative to the sweep file
   trials = 10                               # seeds at each point; 1 if absent
   first_seed = 1                            # the scenario's if absent
+  invalid_points = \"record\"                 # or \"refuse\", which is usual for a grid: points that make no valid scenario
   [design.grid]                             # or [design.random], [design.latin_hypercube], [design.sobol]: these draw
                                             # points = 64 with seed = 1
   [[factor]]
@@ -61,7 +62,8 @@ Examples:
   wield run runs/push_friction --row 7               one of its runs, with a recording
 
 Exit codes: 0 all runs were made, whether they kept their limits or not; 1 fewer than --min-success of them did; 2 bad input
-(nothing was run); 3 some runs came to no outcome, or results cannot be written; 130 Ctrl-C.";
+(nothing was run); 3 some runs came to no outcome, or results cannot be written; 130 Ctrl-C. Rows of status invalid, whose
+values make no valid scenario, count for none of these, and not for --min-success.";
 
 /// Time between two tables that are made while runs are still being made.
 const TABLE_INTERVAL: Duration = Duration::from_secs(30);

@@ -8,16 +8,53 @@ use super::{Difference, Verdict};
 use crate::campaign::{Manifest, Row};
 use crate::outcome::{Limit, Measure};
 use crate::statistics::{Location, holm, wilson};
-use crate::trials::Status;
+use crate::suggest::did_you_mean;
+use crate::trials::{Status, independent};
 
 /// A measure that was asked for and that no run has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("--measure {name}: no run has this measure; expected one of {}", known.join(", "))]
+#[error("--measure {name}: no run has this measure; expected one of {}{}", known.join(", "), meant(name, known))]
 pub struct UnknownMeasure {
     /// What was asked for.
     pub name: String,
     /// What there is.
     pub known: Vec<String>,
+}
+
+fn meant(name: &str, known: &[String]) -> String {
+    did_you_mean(name, known).map_or_else(String::new, |meant| format!("; {meant}"))
+}
+
+/// Finds out from the first runs of all variants whether each measure in `asked` is one that runs have.
+///
+/// Which measures a run has is told by its scenario alone, if it was simulated to its end. If one of `first` was not, a
+/// measure that the others do not have may still be there under other seeds: nothing is known then.
+///
+/// # Errors
+/// An [`UnknownMeasure`].
+pub fn check_measures(first: &[&Row], asked: &[String]) -> Result<(), UnknownMeasure> {
+    if first.iter().any(|row| row.trajectory_digest.is_none()) {
+        return Ok(());
+    }
+    first_unknown(&known_measures(first.iter().copied()), asked)
+}
+
+fn known_measures<'a>(rows: impl Iterator<Item = &'a Row>) -> Vec<&'a Measure> {
+    let mut known: Vec<&Measure> = Vec::new();
+    for measure in rows.flat_map(|row| &row.measures) {
+        if known.iter().all(|other| other.name != measure.name) {
+            known.push(measure);
+        }
+    }
+    known
+}
+
+fn first_unknown(known: &[&Measure], asked: &[String]) -> Result<(), UnknownMeasure> {
+    let unknown = asked.iter().find(|name| known.iter().all(|measure| measure.name != **name));
+    unknown.map_or(Ok(()), |name| {
+        let known = known.iter().map(|measure| measure.name.clone()).collect();
+        Err(UnknownMeasure { name: name.clone(), known })
+    })
 }
 
 /// Compares the runs of a campaign whose manifest holds the variants one after the other, each with the same seeds.
@@ -57,8 +94,14 @@ pub fn compare(
     })
 }
 
+/// How many of a variant's trials tell something of their own.
+fn independent_trials(rows: &[Row]) -> usize {
+    independent(rows.iter().map(|row| row.trajectory_digest.as_deref()))
+}
+
 fn variant(name: &str, rows: &[Row]) -> Variant {
     let successes = rows.iter().filter(|row| row.status == Status::Success).count();
+    let trials = independent_trials(rows);
     let failed = rows.iter().filter(|row| row.status != Status::Success);
     Variant {
         name: name.to_owned(),
@@ -66,7 +109,8 @@ fn variant(name: &str, rows: &[Row]) -> Variant {
         statuses: rows.iter().map(|row| row.status).collect(),
         successes,
         success_rate: if rows.is_empty() { 0.0 } else { successes as f64 / rows.len() as f64 },
-        success_interval_95: wilson(successes, rows.len()),
+        success_interval_95: wilson(successes.min(trials), trials),
+        independent_trials: trials,
         failed: failed
             .map(|row| FailedTrial { seed: row.seed, status: row.status, failures: row.failures.clone() })
             .collect(),
@@ -75,20 +119,13 @@ fn variant(name: &str, rows: &[Row]) -> Variant {
 
 /// The measures to be compared, in the order in which runs state them.
 fn chosen<'a>(rows: &'a [Row], asked: &[String]) -> Result<Vec<&'a Measure>, UnknownMeasure> {
-    let mut known: Vec<&Measure> = Vec::new();
+    let known = known_measures(rows.iter());
+    first_unknown(&known, asked)?;
     let mut judged: Vec<&str> = Vec::new();
     for measure in rows.iter().flat_map(|row| &row.measures) {
-        if known.iter().all(|other| other.name != measure.name) {
-            known.push(measure);
-        }
         if measure.limit.is_some() && !judged.contains(&measure.name.as_str()) {
             judged.push(&measure.name);
         }
-    }
-    let unknown = asked.iter().find(|name| known.iter().all(|measure| measure.name != **name));
-    if let Some(name) = unknown {
-        let known = known.iter().map(|measure| measure.name.clone()).collect();
-        return Err(UnknownMeasure { name: name.clone(), known });
     }
     let wanted = |measure: &&Measure| judged.contains(&measure.name.as_str()) || asked.contains(&measure.name);
     Ok(known.into_iter().filter(wanted).collect())
@@ -96,13 +133,19 @@ fn chosen<'a>(rows: &'a [Row], asked: &[String]) -> Result<Vec<&'a Measure>, Unk
 
 fn compared_successes(groups: &[&[Row]]) -> Vec<SuccessDifference> {
     let Some((first, others)) = groups.split_first() else { return Vec::new() };
-    let mut all: Vec<SuccessDifference> =
-        others.iter().enumerate().map(|(index, rows)| successes(index + 1, first, rows)).collect();
+    // two variants of which every trial is the same run are one pair, however often they were run
+    let pairs = |rows: &[Row]| independent_trials(first).max(independent_trials(rows)).min(first.len());
+    let of = |(index, rows): (usize, &&[Row])| {
+        let pairs = pairs(rows);
+        successes(index + 1, first.get(..pairs).unwrap_or(first), rows)
+    };
+    let mut all: Vec<SuccessDifference> = others.iter().enumerate().map(of).collect();
     let corrected = holm(&all.iter().map(|found| found.p).collect::<Vec<_>>());
     let family = all.len();
     for (found, p) in all.iter_mut().zip(corrected) {
         found.corrected_p = p;
-        found.verdict = Verdict::of(p, first.len(), family);
+        let count = found.both + found.only_first + found.only_this + found.neither;
+        found.verdict = Verdict::of(p, count, family);
     }
     all
 }
@@ -113,8 +156,15 @@ fn compared(measure: &Measure, groups: &[&[Row]], seeds: &[u64]) -> ComparedMeas
     let columns: Vec<Vec<Option<f64>>> = groups.iter().map(values).collect();
     let others = columns.iter().enumerate().skip(1);
     let first = columns.first().map_or(&[][..], Vec::as_slice);
-    let mut differences: Vec<Difference> =
-        others.map(|(variant, values)| difference(variant, first, values, seeds)).collect();
+    let trials: Vec<usize> = groups.iter().map(|rows| independent_trials(rows)).collect();
+    let own = |variant: usize| trials.get(variant).copied().unwrap_or_default();
+    let mut differences: Vec<Difference> = others
+        .map(|(variant, values)| {
+            // zip ends with the shortest: trials that are all the same run are one pair
+            let pairs = own(0).max(own(variant));
+            difference(variant, first, values, seeds.get(..pairs).unwrap_or(seeds))
+        })
+        .collect();
     correct(&mut differences, limit);
     ComparedMeasure {
         name: measure.name.clone(),

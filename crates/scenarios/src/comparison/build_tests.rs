@@ -5,7 +5,7 @@ use crate::campaign::{Base, PlannedRun, RunId};
 
 fn run(index: u64, seed: u64) -> PlannedRun {
     let run_id: RunId = serde_json::from_str("\"00\"").unwrap();
-    PlannedRun { index, run_id, seed, values: vec![toml::Value::from("a")] }
+    PlannedRun { index, run_id, seed, values: vec![toml::Value::from("a")], invalid: Vec::new() }
 }
 
 fn manifest(runs: u64, seeds: u64) -> Manifest {
@@ -79,5 +79,44 @@ fn less_is_better_where_the_limit_is_an_upper_one() {
 fn a_measure_that_no_run_has_is_told_with_those_that_there_are() {
     let manifest = manifest(16, 8);
     let said = compare(&manifest, "", &rows(&manifest), &names(), &["stepz".into()]).unwrap_err().to_string();
-    assert_eq!(said, "--measure stepz: no run has this measure; expected one of error_mm, steps");
+    assert_eq!(
+        said,
+        "--measure stepz: no run has this measure; expected one of error_mm, steps; did you mean `steps`?"
+    );
+}
+
+#[test]
+fn the_first_runs_of_all_variants_tell_which_measures_there_are() {
+    let manifest = manifest(16, 8);
+    let mut rows = rows(&manifest);
+    rows.iter_mut().for_each(|row| row.trajectory_digest = Some("00".into()));
+    // only the second variant has this measure
+    rows[8].measures.push(Measure::reported("flips", "flips", 0.0, "1"));
+    let first = [&rows[0], &rows[8]];
+    assert_eq!(check_measures(&first, &["steps".into(), "flips".into()]), Ok(()));
+    assert_eq!(check_measures(&first, &["flip".into()]).unwrap_err().known, ["error_mm", "steps", "flips"]);
+    // one that was not simulated to its end tells nothing of the others of its variant
+    let mut broken = rows[8].clone();
+    broken.trajectory_digest = None;
+    assert_eq!(check_measures(&[&rows[0], &broken], &["flip".into()]), Ok(()));
+}
+
+#[test]
+fn variants_whose_trials_are_all_the_same_run_are_one_pair() {
+    let manifest = manifest(16, 8);
+    let mut rows = rows(&manifest);
+    for (index, row) in rows.iter_mut().enumerate() {
+        row.trajectory_digest = Some(if index < 8 { "00" } else { "01" }.into());
+    }
+    let compared = compare(&manifest, "", &rows, &names(), &[]).unwrap();
+    assert!(compared.variants.iter().all(|variant| variant.independent_trials == 1));
+    let difference = &compared.measures[0].differences[0];
+    assert_eq!((difference.test.map(|test| test.pairs), difference.verdict), (Some(1), Verdict::TooFew));
+    assert_eq!(compared.success[0].verdict, Verdict::TooFew);
+    assert_eq!(super::super::remarks(&compared).len(), 1);
+    // one variant that draws something makes pairs of its own
+    rows.iter_mut().skip(8).enumerate().for_each(|(index, row)| row.trajectory_digest = Some(format!("1{index}")));
+    let compared = compare(&manifest, "", &rows, &names(), &[]).unwrap();
+    // its third run crashed
+    assert_eq!(compared.measures[0].differences[0].test.map(|test| test.pairs), Some(7));
 }

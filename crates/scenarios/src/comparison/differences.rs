@@ -26,9 +26,9 @@ pub(super) fn successes(variant: usize, first: &[Row], rows: &[Row]) -> SuccessD
     }
 }
 
-/// The values of a variant less those of the first, seed by seed; not yet corrected.
+/// The values of a variant less those of the first, for each of `seeds`; not yet corrected.
 pub(super) fn difference(variant: usize, first: &[Option<f64>], values: &[Option<f64>], seeds: &[u64]) -> Difference {
-    let pairs = || first.iter().zip(values);
+    let pairs = || first.iter().zip(values).take(seeds.len());
     let differences: Vec<f64> = pairs().filter_map(|(first, this)| Some((*this)? - (*first)?)).collect();
     let missing = seeds.iter().zip(pairs()).filter(|(_, (first, this))| first.is_none() || this.is_none());
     let test = signed_rank(&differences);

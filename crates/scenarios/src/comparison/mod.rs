@@ -14,12 +14,12 @@ mod table;
 mod variants;
 mod verdict;
 
-pub use build::{UnknownMeasure, compare};
+pub use build::{UnknownMeasure, check_measures, compare};
 pub use page::page;
 pub use result::{
     COMPARISON_SCHEMA, ComparedMeasure, Comparison, Difference, FailedTrial, Limits, Spread, SuccessDifference, Variant,
 };
-pub use sentences::{Statement, statements};
+pub use sentences::{Statement, remarks, statements};
 pub use table::text;
 pub use variants::{Variation, points, variant_names};
 pub use verdict::Verdict;

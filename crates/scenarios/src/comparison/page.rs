@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::sentences::{amount, headed, limit, probability};
-use super::{ComparedMeasure, Comparison, Difference, Limits, Variant, Verdict, charts, statements};
+use super::{ComparedMeasure, Comparison, Difference, Limits, Variant, Verdict, charts, remarks, statements};
 use crate::plot::escaped;
 use crate::report::number;
 use crate::trials::Status;
@@ -85,6 +85,9 @@ fn head(out: &mut String, comparison: &Comparison, recording: Option<&str>) {
         let _ = write!(out, " One seed of each side by side: <code>rerun {file}</code>.");
     }
     out.push_str("</p>\n<div class=\"verdict\" role=\"note\" aria-label=\"verdict\">\n");
+    for remark in remarks(comparison) {
+        let _ = writeln!(out, "<p>{}</p>", escaped(&remark));
+    }
     for statement in statements(comparison) {
         let _ = writeln!(out, "<p><strong>{}</strong></p>\n<ul>", escaped(&statement.head));
         for part in statement.parts {

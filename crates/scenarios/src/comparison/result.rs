@@ -49,6 +49,8 @@ pub struct Variant {
     pub success_rate: f64,
     /// Wilson's 95 % interval of it.
     pub success_interval_95: [f64; 2],
+    /// Trials that tell something of their own: 1 if all are the same run to the last bit.
+    pub independent_trials: usize,
     /// The trials that were no success, by seed.
     pub failed: Vec<FailedTrial>,
 }

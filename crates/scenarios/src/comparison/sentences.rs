@@ -18,6 +18,18 @@ pub fn statements(comparison: &Comparison) -> Vec<Statement> {
     comparison.success.iter().map(|success| statement(comparison, success)).collect()
 }
 
+/// What is said of variants whose trials are all the same run.
+#[must_use]
+pub fn remarks(comparison: &Comparison) -> Vec<String> {
+    let same = |variant: &&super::Variant| variant.independent_trials < variant.statuses.len();
+    let names: Vec<&str> = comparison.variants.iter().filter(same).map(|variant| variant.name.as_str()).collect();
+    if names.is_empty() {
+        Vec::new()
+    } else {
+        vec![format!("{}: {}", names.join(", "), crate::report::SAME_RUN.trim_end())]
+    }
+}
+
 /// "p = 0.012", "p < 0.001": a probability as people write it.
 #[must_use]
 pub(super) fn probability(p: f64) -> String {

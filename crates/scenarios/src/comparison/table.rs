@@ -1,7 +1,7 @@
 //! A comparison as text for a terminal: a table of all variants, and sentences.
 
 use super::sentences::{amount, headed, limit, probability};
-use super::{Comparison, Difference, Spread, Variant, statements};
+use super::{Comparison, Difference, Spread, Variant, remarks, statements};
 use crate::report::{align_right, number, table};
 
 /// Describes a comparison: successes, the middle of every measure, differences from the first variant, sentences.
@@ -18,6 +18,9 @@ pub fn text(comparison: &Comparison) -> String {
     if !comparison.measures.is_empty() {
         text += &format!("median [95 % interval]\n{}\n", medians(comparison));
         text += &format!("difference from {}, seed by seed\n{}\n", first_name(comparison), differences(comparison));
+    }
+    for remark in remarks(comparison) {
+        text += &format!("{remark}\n");
     }
     for statement in statements(comparison) {
         text += &format!("{}:\n  {}\n", statement.head, statement.parts.join("\n  "));

@@ -7,18 +7,19 @@ use super::times::{SIM_TIME, STEP, Times};
 
 const MRAD_PER_RAD: f64 = 1e3;
 
-/// What every arm has a curve of for each joint: entity, name in the legend.
-const JOINT_GROUPS: [(&str, &str); 4] = [
-    ("joint_error", "error [mrad]"),
-    ("joint_position", "position [rad]"),
-    ("joint_velocity", "velocity [rad/s]"),
-    ("joint_torque", "torque [N m]"),
+/// What every arm has a curve of for each joint: entity, quantity, unit.
+const JOINT_GROUPS: [(&str, &str, &str); 4] = [
+    ("joint_error", "error", "mrad"),
+    ("joint_position", "position", "rad"),
+    ("joint_velocity", "velocity", "rad/s"),
+    ("joint_torque", "torque", "N m"),
 ];
 
-/// One curve: where it lies, how its legend reads.
+/// One curve: where it lies, what it is called alone, and in the legend of a plot whose title tells what is drawn.
 struct Curve {
     path: String,
     name: String,
+    legend: String,
     color: Rgba,
     values: Vec<f64>,
 }
@@ -48,16 +49,23 @@ impl Curves {
     }
 
     /// Adds a curve at `/plots/path`.
-    pub(super) fn add(&mut self, path: &str, name: impl Into<String>, color: Rgba) {
+    pub(super) fn add(&mut self, path: &str, name: &str, color: Rgba) {
+        self.add_short(path, name, name, color);
+    }
+
+    /// Adds a curve at `/plots/path` with a shorter name in the legend, which otherwise covers the curves.
+    pub(super) fn add_short(&mut self, path: &str, name: &str, legend: &str, color: Rgba) {
         let values = Vec::with_capacity(self.rows);
-        self.curves.push(Curve { path: format!("/plots/{path}"), name: name.into(), color, values });
+        let (path, name, legend) = (format!("/plots/{path}"), name.to_owned(), legend.to_owned());
+        self.curves.push(Curve { path, name, legend, color, values });
     }
 
     /// Adds the curves that every arm has of its joints.
     pub(super) fn add_joints(&mut self, joints: &[String]) {
-        for (group, quantity) in JOINT_GROUPS {
+        for (group, quantity, unit) in JOINT_GROUPS {
             for (joint, color) in joints.iter().zip(style::JOINTS.iter().cycle()) {
-                self.add(&format!("{group}/{}", part(joint)), format!("{joint} {quantity}"), *color);
+                let (name, legend) = (format!("{joint} {quantity} [{unit}]"), format!("{joint} [{unit}]"));
+                self.add_short(&format!("{group}/{}", part(joint)), &name, &legend, *color);
             }
         }
     }
@@ -78,7 +86,7 @@ impl Curves {
     pub(super) fn send_static(&self, stream: &RecordingStream) -> RecordingStreamResult<()> {
         self.curves.iter().try_for_each(|curve| {
             let line =
-                SeriesLines::new().with_names([curve.name.as_str()]).with_colors([curve.color]).with_widths([1.5]);
+                SeriesLines::new().with_names([curve.legend.as_str()]).with_colors([curve.color]).with_widths([1.5]);
             stream.log_static(curve.path.as_str(), &line)
         })
     }
@@ -121,7 +129,8 @@ pub(super) fn send_torque_limits(
     for ((joint, limit), color) in limits.filter(|((_, limit), _)| limit.is_finite()) {
         let path = format!("/plots/joint_torque_limit/{}", part(joint));
         let line = SeriesLines::new()
-            .with_names([format!("{joint} limit [N m]"), format!("{joint} limit, negative [N m]")])
+            // called as the joint's torque is: a legend has one entry for lines of one name, and no room for two more each
+            .with_names([format!("{joint} [N m]"), format!("{joint} [N m]")])
             .with_colors([*color, *color])
             .with_widths([0.75, 0.75]);
         stream.log_static(path.as_str(), &line)?;

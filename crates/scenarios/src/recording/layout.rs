@@ -67,16 +67,18 @@ impl Layout {
         self.panels()
     }
 
-    /// Curves of joints that every arm has, on one page.
-    pub(super) fn joints(&mut self) -> RecordingStreamResult<Node> {
+    /// Pages of what every arm has of its joints: how they moved, and their torques. An arm has up to seven lines in a plot,
+    /// whose legend needs a third of a page.
+    pub(super) fn joints(&mut self) -> RecordingStreamResult<[Node; 2]> {
         let errors = self.curves("joint tracking errors [mrad]", &["+ /plots/joint_error/**"])?;
         let positions = self.curves("joint positions [rad]", &["+ /plots/joint_position/**"])?;
         let velocities = self.curves("joint velocities [rad/s]", &["+ /plots/joint_velocity/**"])?;
-        let limits = self.curves(
-            "joint torques and limits [N m]",
-            &["+ /plots/joint_torque/**", "+ /plots/joint_torque_limit/**"],
-        )?;
-        self.container(ContainerKind::Vertical, "joints", &[&errors, &positions, &velocities, &limits], &[])
+        let torques = self.curves("joint torques [N m]", &["+ /plots/joint_torque/**"])?;
+        let limited = &["+ /plots/joint_torque/**", "+ /plots/joint_torque_limit/**"];
+        let limits = self.curves("the same with the limits as thin lines [N m]", limited)?;
+        let motions =
+            self.container(ContainerKind::Vertical, "joint motions", &[&errors, &positions, &velocities], &[])?;
+        Ok([motions, self.container(ContainerKind::Vertical, "joint torques", &[&torques, &limits], &[])?])
     }
 
     /// Outcome, events and task, one behind the other.

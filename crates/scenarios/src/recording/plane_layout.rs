@@ -10,8 +10,9 @@ use super::layout::{Layout, Node};
 use super::times::{SIM_TIME, STEP};
 use super::{scene, style};
 
-/// Margin of the view around the map as a share of the map's width: left and right, above, below (with the legend).
-const MARGINS: [f64; 3] = [0.04, 0.08, 0.14];
+/// Margin of the view around the map as a share of the map's width: left and right, above (with action and legend), below,
+/// where the arm comes from.
+const MARGINS: [f64; 3] = [0.04, 0.20, 0.06];
 
 /// Writes the layout and returns its root.
 pub(super) fn write(layout: &mut Layout, scene: &SceneDescription) -> RecordingStreamResult<Node> {
@@ -47,9 +48,9 @@ fn right(layout: &mut Layout) -> RecordingStreamResult<Node> {
     let forces = layout.curves("contact force [N]", &["+ /plots/force/**"])?;
     let torques = layout.curves("joint torques [N m]", &["+ /plots/joint_torque/**"])?;
     let run = layout.container(ContainerKind::Vertical, "run", &[&goal, &tracking, &forces, &torques], &[])?;
-    let joints = layout.joints()?;
+    let [motions, torques] = layout.joints()?;
     let states = layout.curves("action and contact", &["+ /plots/state/**"])?;
-    let curves = layout.container(ContainerKind::Tabs, "curves", &[&run, &joints, &states], &[])?;
+    let curves = layout.container(ContainerKind::Tabs, "curves", &[&run, &motions, &torques, &states], &[])?;
     let texts = layout.texts()?;
     layout.container(ContainerKind::Vertical, "curves and texts", &[&curves, &texts], &[2.6, 1.0])
 }

@@ -16,6 +16,9 @@ use super::style::{self, Rgba, on_screen, order};
 /// Half size of the goal's cross, as a share of the map's width.
 const GOAL_CROSS: f64 = 0.02;
 
+/// Height of the legend's upper line above the map, as a share of the map's width; the action's name is below it.
+const LEGEND_ABOVE: f64 = 0.165;
+
 /// A map has this many dashes along its width.
 const DASHES: f64 = 75.0;
 
@@ -121,7 +124,7 @@ fn send_styles(stream: &RecordingStream) -> RecordingStreamResult<()> {
     stream.log_static("/plane/phase", &points(style::MAP, 0.1, order::TEXT))
 }
 
-/// Says below the map what the colors mean: plane views have no legend.
+/// Says above the map, where no arm comes from, what the colors mean: plane views have no legend.
 fn send_legend(stream: &RecordingStream, map: &MapBounds) -> RecordingStreamResult<()> {
     let entries = [
         ("object, its way", style::OBJECT),
@@ -137,7 +140,7 @@ fn send_legend(stream: &RecordingStream, map: &MapBounds) -> RecordingStreamResu
     let place = |index: usize| {
         let (column, line) = ((index % columns) as f64, (index / columns) as f64);
         let x = map.min_m[0] + width * (0.125 + column / columns as f64);
-        [x as f32, (map.min_m[1] - width * (0.035 + 0.055 * line)) as f32]
+        [x as f32, (map.max_m[1] + width * (LEGEND_ABOVE - 0.055 * line)) as f32]
     };
     let legend = Points2D::new((0..entries.len()).map(place))
         .with_colors(entries.map(|(_, color)| color))

@@ -1,6 +1,6 @@
 //! Shapes as strips of lines: closed outlines, filled insides, dashes, crosses.
 
-use nalgebra::{Isometry2, Point2};
+use nalgebra::{Isometry2, Point, Point2};
 use skills::outline::PlacedOutline;
 
 /// A line through points, as Rerun takes it.
@@ -63,9 +63,10 @@ fn crossing(corners: &[Point2<f64>], y: f64) -> Option<(f64, f64)> {
 }
 
 /// A path as dashes of `dash_m` with gaps as long.
-pub(super) fn dashed(path: &[Point2<f64>], dash_m: f64) -> Vec<Strip> {
+pub(super) fn dashed<const D: usize>(path: &[Point<f64, D>], dash_m: f64) -> Vec<Vec<[f32; D]>> {
+    let plain = |point: &Point<f64, D>| point.coords.map(|value| value as f32).into();
     let mut strips = Vec::new();
-    let mut strip: Strip = path.first().map(plain).into_iter().collect();
+    let mut strip: Vec<[f32; D]> = path.first().map(plain).into_iter().collect();
     let (mut drawing, mut left) = (true, dash_m);
     for (start, end) in path.iter().zip(path.iter().skip(1)) {
         let length = (end - start).norm();
@@ -133,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_path_without_length_has_no_dashes() {
-        assert!(dashed(&[], 0.1).is_empty());
+        assert!(dashed::<2>(&[], 0.1).is_empty());
         assert!(dashed(&[Point2::origin()], 0.1).is_empty());
     }
 }

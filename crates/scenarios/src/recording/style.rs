@@ -19,6 +19,10 @@ pub(super) const TOOL: Rgba = [88, 160, 255, 255];
 pub(super) const TOOL_FILL: Rgba = [36, 72, 128, 255];
 /// Where the plan wants the tool.
 pub(super) const TOOL_PLAN: Rgba = [128, 156, 200, 255];
+/// Where the plan wants the tool, in space, where the way that was taken lies upon it.
+pub(super) const REFERENCE: Rgba = [250, 220, 100, 255];
+/// Axes x, y, z of a frame.
+pub(super) const AXES: [Rgba; 3] = [[235, 80, 80, 255], [96, 208, 120, 255], [88, 130, 255, 255]];
 /// Obstacles.
 pub(super) const OBSTACLE: Rgba = [158, 162, 170, 255];
 /// Inside of obstacles.

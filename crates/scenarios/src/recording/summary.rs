@@ -7,6 +7,7 @@ use rerun::external::arrow::array::{ArrayRef, BooleanArray, Float64Array, String
 use rerun::{AnyValues, ComponentIdentifier, RecordingStream, RecordingStreamResult, TextDocument};
 
 use crate::outcome::{Limit, Measure, Outcome};
+use crate::report::with_unit;
 use crate::scenario::ResolvedScenario;
 
 /// Where the task is told.
@@ -86,8 +87,7 @@ fn list(text: &mut String, title: &str, sentences: &[String]) {
 }
 
 fn line(text: &mut String, measure: &Measure) {
-    let unit = if measure.unit == "1" { "" } else { measure.unit.as_str() };
-    let number = |value: f64| format!("{} {unit}", rounded(value)).trim_end().to_owned();
+    let number = |value: f64| with_unit(Some(value), &measure.unit);
     let value = measure.value.map_or_else(|| "-".into(), number);
     let limit = match measure.limit {
         Some(Limit::AtMost(limit)) => format!("at most {}", number(limit)),
@@ -102,17 +102,6 @@ fn line(text: &mut String, measure: &Measure) {
     let label = measure.label.replace('|', "\\|");
     // writing to a string cannot fail
     let _ = writeln!(text, "| {label} | {value} | {limit} | {verdict} |");
-}
-
-/// A number with about four digits that tell something.
-fn rounded(value: f64) -> String {
-    let size = value.abs();
-    match size {
-        _ if size >= 1000.0 => format!("{value:.0}"),
-        _ if size >= 10.0 => format!("{value:.1}"),
-        _ if size >= 0.1 || size == 0.0 => format!("{value:.3}"),
-        _ => format!("{value:.2e}"),
-    }
 }
 
 #[cfg(test)]
@@ -141,8 +130,8 @@ mod tests {
         for expected in [
             "# Failure",
             "- the object stopped 12 mm before its goal",
-            "| distance from the goal | 12.0 mm | at most 5.000 mm | **missed** |",
-            "| contacts lost | 2.000 |  |  |",
+            "| distance from the goal | 12.04 mm | at most 5 mm | **missed** |",
+            "| contacts lost | 2 |  |  |",
             "| way after a\\|b | - |  |  |",
             "- seen late",
         ] {

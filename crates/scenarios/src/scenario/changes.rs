@@ -6,11 +6,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, value};
 
+use super::given::Given;
 use super::source::Source;
 use crate::diagnostic::Diagnostic;
 
@@ -37,6 +39,36 @@ impl Change {
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} = {}", self.key, self.value)
+    }
+}
+
+impl Change {
+    /// The option that makes this change, as it is written in a shell: texts that are bare words without quotes.
+    fn as_option(&self) -> String {
+        let bare = |text: &str| parse_value(text).is_ok_and(|value| value.as_str() == Some(text));
+        match &self.value {
+            toml::Value::String(text) if bare(text) => format!("--set {}={text}", self.key),
+            value => format!("--set {}={value}", self.key),
+        }
+    }
+}
+
+/// How a user made changes, which problems with them name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GivenBy {
+    /// The values of a file or of an option for several values at once.
+    Values,
+    /// The option `--set`.
+    Option,
+}
+
+impl GivenBy {
+    /// The words by which the user knows a change of a file.
+    pub(super) fn words(self, file: &Path, change: &Change) -> String {
+        match self {
+            Self::Values => format!("{} with {change}", file.display()),
+            Self::Option => format!("{} {}", file.display(), change.as_option()),
+        }
     }
 }
 
@@ -90,25 +122,43 @@ fn is_in_key(letter: char) -> bool {
     letter.is_alphanumeric() || letter == '_' || letter == '-'
 }
 
+/// The source with the values of some keys changed, each change with the words by which its user knows it; problems at
+/// what they put there name these.
+///
+/// # Errors
+/// As [`with`].
+pub(crate) fn changed(source: &Source, changes: Vec<(Change, String)>) -> Result<Source, Box<Diagnostic>> {
+    if changes.is_empty() {
+        return Ok(source.clone());
+    }
+    let bare: Vec<Change> = changes.iter().map(|(change, _)| change.clone()).collect();
+    let text = with(source, &bare)?.text.to_string();
+    Ok(Source::changed(text, Given::new(source.clone(), changes)))
+}
+
 /// The source with the values of some keys changed; keys that were not there are added.
 ///
 /// A text that is no TOML is returned as it is: whoever reads it finds out.
 ///
 /// # Errors
 /// A [`Diagnostic`] if a key leads through something that has no keys.
-pub(crate) fn changed(source: &Source, changes: &[Change]) -> Result<Source, Box<Diagnostic>> {
+pub(crate) fn with(source: &Source, changes: &[Change]) -> Result<Source, Box<Diagnostic>> {
     let Ok(mut document) = source.text.parse::<DocumentMut>() else { return Ok(source.clone()) };
     for change in changes {
-        let path = match change.key.split_once(INTO_ASSET) {
-            None => change.key.split('.').collect(),
-            Some(_) => vec!["scenario", "asset_changes", &change.key],
-        };
-        set(document.as_item_mut(), &path, &change.value).map_err(|obstacle| {
+        set(document.as_item_mut(), &path_in_text(&change.key), &change.value).map_err(|obstacle| {
             let problem = Diagnostic::of_file(&source.file, format!("`{}` cannot be changed", change.key));
             Box::new(problem.found(obstacle).expected("the path of a key through tables and lists"))
         })?;
     }
-    Ok(Source { file: source.file.clone(), text: document.to_string().into() })
+    Ok(Source::new(&source.file, document.to_string()))
+}
+
+/// Where a changed value stands in the text: one in an asset is kept in a table of the scenario.
+pub(super) fn path_in_text(key: &str) -> Vec<&str> {
+    match key.split_once(INTO_ASSET) {
+        None => key.split('.').collect(),
+        Some(_) => vec!["scenario", "asset_changes", key],
+    }
 }
 
 /// An asset's source with the changes that a scenario makes in it: those of `changes` whose keys begin with `key:`.
@@ -119,13 +169,15 @@ pub(crate) fn changed_asset(
     source: &Source,
     key: &str,
     changes: &BTreeMap<String, toml::Value>,
+    scenario: &Source,
 ) -> Result<Source, Box<Diagnostic>> {
     let inside = |(whole, value): (&String, &toml::Value)| {
         let (own, rest) = whole.split_once(INTO_ASSET)?;
-        (own == key).then(|| Change::new(rest, value.clone()))
+        let stated = || format!("{}, [scenario.asset_changes] \"{whole}\" = {value}", scenario.file.display());
+        let words = || scenario.words_for(whole).map_or_else(stated, str::to_owned);
+        (own == key).then(|| (Change::new(rest, value.clone()), words()))
     };
-    let changes: Vec<Change> = changes.iter().filter_map(inside).collect();
-    if changes.is_empty() { Ok(source.clone()) } else { changed(source, &changes) }
+    changed(source, changes.iter().filter_map(inside).collect())
 }
 
 /// Sets the value at `path`; the error says what stands in the way.
@@ -187,8 +239,8 @@ mod tests {
 
     fn with(changes: &[&str]) -> Result<toml::Table, String> {
         let changes: Vec<Change> = changes.iter().map(|text| text.parse().unwrap()).collect();
-        let source = Source { file: "a.toml".into(), text: TEXT.into() };
-        changed(&source, &changes).map(|source| source.text.parse().unwrap()).map_err(|problem| problem.to_string())
+        let source = Source::new("a.toml", TEXT);
+        super::with(&source, &changes).map(|source| source.text.parse().unwrap()).map_err(|problem| problem.to_string())
     }
 
     #[test]
@@ -215,9 +267,10 @@ mod tests {
         let table = with(&["tool.asset:family.l.arm_m=0.05"]).unwrap();
         assert_eq!(table["scenario"]["asset_changes"]["tool.asset:family.l.arm_m"].as_float(), Some(0.05));
         let changes = BTreeMap::from([("tool.asset:a".to_owned(), toml::Value::Integer(9))]);
-        let source = Source { file: "t.toml".into(), text: "a = 1\n".into() };
-        assert_eq!(&*changed_asset(&source, "tool.asset", &changes).unwrap().text, "a = 9\n");
-        assert_eq!(&*changed_asset(&source, "food.asset", &changes).unwrap().text, "a = 1\n");
+        let source = Source::new("t.toml", "a = 1\n");
+        let scenario = Source::new("s.toml", "");
+        let text = |key: &str| changed_asset(&source, key, &changes, &scenario).unwrap().text;
+        assert_eq!((&*text("tool.asset"), &*text("food.asset")), ("a = 9\n", "a = 1\n"));
     }
 
     #[test]

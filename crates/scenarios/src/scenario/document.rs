@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { file: "a.toml".into(), text: text.into() }
+        Source::new("a.toml", text)
     }
 
     fn tree(text: &str) -> Node {

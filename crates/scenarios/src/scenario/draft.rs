@@ -118,9 +118,8 @@ mod tests {
     }
 
     fn lines(text: &str) -> Vec<String> {
-        let example =
-            Source { file: "e".into(), text: "name = \"x\"\nparts = [{ place_m = [1, 2], count = 3 }]".into() };
-        let draft = read::<Thing>(&Source { file: "a".into(), text: text.into() }, &example);
+        let example = Source::new("e", "name = \"x\"\nparts = [{ place_m = [1, 2], count = 3 }]");
+        let draft = read::<Thing>(&Source::new("a", text), &example);
         draft.problems.iter().map(ToString::to_string).collect()
     }
 

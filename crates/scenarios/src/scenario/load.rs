@@ -1,9 +1,9 @@
 //! Loading: from a scenario file to a checked scenario with everything that it names.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::changes::{Change, changed};
+use super::changes::{Change, GivenBy, changed};
 use super::check::check_arm;
 use super::decode::{Flaw, decode};
 use super::document::{Node, Value, path};
@@ -36,19 +36,40 @@ pub fn load(file: &Path, assets: &Assets) -> Result<ResolvedScenario, Vec<Diagno
 /// Reads and checks a scenario of which some values are changed; `file` is the name under which the user knows its text.
 ///
 /// # Errors
-/// As [`load`]; each problem says which values were changed.
+/// As [`load`]; each problem says which values were changed, one with a changed value is not at a place of the file.
 pub fn load_text(
     file: &Path,
     text: &str,
     changes: &[Change],
     assets: &Assets,
 ) -> Result<ResolvedScenario, Vec<Diagnostic>> {
-    let source = Source { file: file.to_owned(), text: text.into() };
-    let result = changed(&source, changes).map_err(|problem| vec![*problem]);
+    load_changed(file, text, changes, GivenBy::Values, assets)
+}
+
+/// The same, with the way in which the user made the changes.
+///
+/// # Errors
+/// As [`load_text`].
+pub fn load_changed(
+    file: &Path,
+    text: &str,
+    changes: &[Change],
+    by: GivenBy,
+    assets: &Assets,
+) -> Result<ResolvedScenario, Vec<Diagnostic>> {
+    let source = Source::new(file, text);
+    let in_words: Vec<_> = changes.iter().map(|change| (change.clone(), by.words(file, change))).collect();
+    let words: Vec<PathBuf> = in_words.iter().map(|(_, words)| words.into()).collect();
+    let result = changed(&source, in_words).map_err(|problem| vec![*problem]);
     result.and_then(|source| resolve(&source, assets)).map_err(|problems| {
         let stated: Vec<String> = changes.iter().map(Change::to_string).collect();
         let remark = (!stated.is_empty()).then(|| format!("the file is read with {}", stated.join(", ")));
-        problems.into_iter().map(|problem| problem.help(remark.clone())).collect()
+        // a problem that names the only change needs no list of them
+        let told = |problem: &Diagnostic| words.len() == 1 && words.contains(&problem.file);
+        let remarked = |problem: Diagnostic| {
+            if told(&problem) { problem } else { problem.help(remark.clone()) }
+        };
+        problems.into_iter().map(remarked).collect()
     })
 }
 

@@ -30,7 +30,7 @@ fn shipped() -> String {
 }
 
 fn problems(text: &str) -> Vec<Diagnostic> {
-    let source = Source { file: "push.toml".into(), text: text.into() };
+    let source = Source::new("push.toml", text);
     resolve(&source, &assets()).err().unwrap_or_default()
 }
 
@@ -59,7 +59,7 @@ fn the_shipped_scenario_loads() {
 fn a_scenario_written_with_all_defaults_loads_to_the_same() {
     let loaded = load(&project().join("scenarios/push_stick.toml"), &assets()).unwrap();
     let text = toml::to_string(&push(&loaded).scenario).unwrap();
-    let source = Source { file: "again.toml".into(), text: text.as_str().into() };
+    let source = Source::new("again.toml", text.as_str());
     let again = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
     assert_eq!(push(&again).scenario, push(&loaded).scenario);
     assert!(text.contains("time_step_s"), "defaults are written out");
@@ -74,7 +74,7 @@ fn tool(name: &str) -> Tool {
 /// The tool of a file with these lines about its shape, or the first problem.
 fn tool_with(lines: &str) -> Result<Tool, String> {
     let text = format!("name = \"tool\"\nmass_kg = 0.01\nfriction = 0.3\n{lines}");
-    read_asset(&Source { file: "tool.toml".into(), text: text.into() }).map_err(|problems| problems[0].to_string())
+    read_asset(&Source::new("tool.toml", text)).map_err(|problems| problems[0].to_string())
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn a_tool_file_without_a_shape_is_told_both_ways_to_state_one() {
 #[test]
 fn a_scenario_may_push_with_another_tool_than_was_shown() {
     let text = changed("asset = \"stick\"", "asset = \"l\"").replace("count = 5", "count = 5\ntool = \"stick\"");
-    let source = Source { file: "push.toml".into(), text: text.into() };
+    let source = Source::new("push.toml", text);
     let loaded = resolve(&source, &assets()).map_err(|problems| problems[0].to_string()).unwrap();
     let ResolvedPush { tool, demonstration_tool, .. } = push(&loaded);
     assert_eq!((tool.name.as_str(), demonstration_tool.name.as_str()), ("l", "stick"));
@@ -270,7 +270,7 @@ fn a_scenario_has_the_shape_of_its_task_and_its_arm_is_checked_all_the_same() {
             "[scenario]\ntitle = \"still\"\n[robot]\nasset = \"planar_3r\"\ntool_frame = \"{frame}\"\n\
              [controller.impedance]\ndamping_nm_s_per_rad = [1.0, 1.0]\n[task.still]\n{rest}"
         );
-        let source = Source { file: "still.toml".into(), text: text.into() };
+        let source = Source::new("still.toml", text);
         let found = load_as::<Still>(&source, &source, &assets()).map(drop).unwrap_err();
         found.iter().map(|problem| problem.title.clone()).collect::<Vec<_>>()
     };

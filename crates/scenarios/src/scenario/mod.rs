@@ -6,6 +6,7 @@ mod decode;
 mod document;
 mod draft;
 mod explain;
+mod given;
 mod load;
 pub(crate) mod named;
 mod parts;
@@ -17,12 +18,12 @@ mod units;
 mod words;
 
 pub(crate) use changes::INTO_ASSET;
-pub use changes::{Change, check_key, parse_value};
+pub use changes::{Change, GivenBy, check_key, parse_value};
 pub(crate) use document::{Node, Value, path};
 pub(crate) use draft::{Draft, read as read_draft};
 pub(crate) use explain::{Context, key_name};
 pub(crate) use load::{Loader, load_as};
-pub use load::{load, load_text, notes, title};
+pub use load::{load, load_changed, load_text, notes, title};
 pub(crate) use named::{
     Reader, asset_description, asset_source, demonstration_description, field_problem, skills_description,
     stated_description,

@@ -128,8 +128,9 @@ impl Reader<'_> {
     /// Keeps a value, or its problems with a remark on who asked for the file.
     fn keep<T>(&mut self, key: &str, result: Result<T, Vec<Diagnostic>>) -> Option<T> {
         let path = path(key);
-        let line = self.context.problem_at_value(&path, "").place.map_or(0, |place| place.line);
-        let remark = format!("{}:{line} names this file: {}", self.context.source.file.display(), key_name(&path));
+        let named = self.context.problem_at_value(&path, "");
+        let line = named.place.map_or_else(String::new, |place| format!(":{}", place.line));
+        let remark = format!("{}{line} names this file: {}", named.file.display(), key_name(&path));
         let problems = match result {
             Ok(value) => return Some(value),
             Err(problems) => problems,
@@ -148,7 +149,7 @@ impl Reader<'_> {
             return Some(source);
         }
         self.asked.push(key.to_owned());
-        let changed = changed_asset(&source, key, &self.asset_changes);
+        let changed = changed_asset(&source, key, &self.asset_changes, self.context.source);
         changed.map_err(|problem| self.problems.push(*problem)).ok()
     }
 
@@ -204,7 +205,7 @@ pub(crate) fn asset_source(scenario: &ResolvedScenario, key: &str, assets: &Asse
 /// Reads and checks the file of an asset.
 pub(crate) fn read_asset<A: TomlAsset>(source: &Source) -> Result<A, Vec<Diagnostic>> {
     let (file, text) = A::EXAMPLE;
-    let example = Source { file: file.into(), text: text.into() };
+    let example = Source::new(file, text);
     let Draft { value, tree, mut problems } = read::<A::File>(source, &example);
     let (Some(file), Some(tree)) = (value, tree) else { return Err(problems) };
     match A::from_file(file) {
@@ -268,7 +269,9 @@ fn urdf_problem(source: &Source, reason: &str) -> Diagnostic {
         Some(start..start + name.len() + "name=\"\"".len())
     });
     let span = line_place(source, reason).or(named).or_else(|| xml_place(source, reason)).unwrap_or(0..0);
-    source.problem(span, "the robot cannot be used").found(reason.strip_prefix("read urdf: ").unwrap_or(reason))
+    // what was attempted is said by the title
+    let found = ["read urdf: ", "check dynamics: "].iter().find_map(|attempt| reason.strip_prefix(attempt));
+    source.problem(span, "the robot cannot be used").found(found.unwrap_or(reason))
 }
 
 /// The text of the line that "line 12:" names.

@@ -57,6 +57,7 @@ pub struct RobotConfig {
     pub base_angle_rad: f64,
     /// Rotor inertia felt at each joint, kg m²; one number per joint, or none for a bare arm.
     #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
     pub rotor_inertia_kg_m2: Vec<f64>,
     /// Frame of the arm that grips the tool.
     #[serde(default = "default_tool_frame")]
@@ -85,6 +86,7 @@ fn default_tool_frame() -> String {
 #[serde(default, deny_unknown_fields)]
 pub struct RecordingConfig {
     /// Samples per simulated second in the recording, Hz.
+    #[schemars(range(min = 0.01, max = super::CONTROL_RATE_HZ))]
     pub rate_hz: f64,
 }
 

@@ -179,7 +179,7 @@ pub(crate) fn refusal<S: SavedSkills>(source: &Source, error: RestoreError) -> V
 /// A file that shows how keys are written.
 fn example<S: SavedSkills>() -> Source {
     let (file, text) = S::EXAMPLE;
-    Source { file: file.into(), text: text.into() }
+    Source::new(file, text)
 }
 
 fn check_task(source: &Source, tree: &Node, task: &str) -> Result<(), Box<Diagnostic>> {

@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::given::{Given, Origin};
 use crate::assets::stems;
 use crate::diagnostic::{Diagnostic, Place};
 use crate::suggest::{listed, nearest};
@@ -20,21 +21,55 @@ pub(crate) struct Source {
     pub file: PathBuf,
     /// Its text.
     pub text: Arc<str>,
+    /// The changes that made this text out of that of the file, if there were any.
+    given: Option<Arc<Given>>,
 }
 
 impl Source {
+    /// The text of a file as it is.
+    pub fn new(file: impl Into<PathBuf>, text: impl Into<Arc<str>>) -> Self {
+        Self { file: file.into(), text: text.into(), given: None }
+    }
+
+    /// A text that changes made out of that of a file.
+    pub fn changed(text: String, given: Given) -> Self {
+        Self { file: given.before().file.clone(), text: text.into(), given: Some(Arc::new(given)) }
+    }
+
+    /// The words for the change of a key, if there was one.
+    pub fn words_for(&self, key: &str) -> Option<&str> {
+        self.given.as_ref()?.words_for(key)
+    }
+
     /// Reads a UTF-8 file.
     pub fn read(file: &Path) -> Result<Self, Box<Diagnostic>> {
         let bytes = read_bytes(file).map_err(|error| Box::new(unreadable(file, &error)))?;
         match String::from_utf8(bytes) {
-            Ok(text) => Ok(Self { file: file.to_owned(), text: text.into() }),
+            Ok(text) => Ok(Self::new(file, text)),
             Err(error) => Err(Box::new(not_utf8(file, error.as_bytes(), error.utf8_error().valid_up_to()))),
         }
     }
 
-    /// A problem at a byte range of this text.
+    /// A problem at a byte range of this text: at its place in the file, or with the change that put it there.
     pub fn problem(&self, span: Range<usize>, title: impl Into<String>) -> Diagnostic {
-        Diagnostic::at(&self.file, Place::of(&self.text, span), title)
+        let Some(given) = &self.given else { return Diagnostic::at(&self.file, Place::of(&self.text, span), title) };
+        match given.origin(span.clone()) {
+            Some(Origin::Change(words)) => Diagnostic::of_file(Path::new(&words), title),
+            Some(Origin::Before(span)) => given.before().problem(span, title),
+            None => Diagnostic::at(&self.file, Place::of(&self.text, span), title),
+        }
+    }
+
+    /// Points at another part of this text that matters to a problem.
+    pub fn related(&self, problem: Diagnostic, span: Range<usize>, remark: &str) -> Diagnostic {
+        let other = self.problem(span, "");
+        match (&problem.place, other.place) {
+            (Some(_), Some(place)) if problem.file == other.file => problem.related(place.span, remark),
+            (_, place) => {
+                let line = place.map_or_else(String::new, |place| format!(":{}", place.line));
+                problem.help([format!("{}{line}: {remark}", other.file.display())])
+            }
+        }
     }
 }
 

@@ -138,7 +138,7 @@ mod tests {
     use super::*;
 
     fn help(line: &str, known: &[&'static str]) -> Option<String> {
-        let tree = Node::parse(&Source { file: "a".into(), text: line.into() }).unwrap();
+        let tree = Node::parse(&Source::new("a", line)).unwrap();
         let key = line.split(' ').next().unwrap();
         mistaken_unit(key, tree.at(&path(key)).unwrap(), known).map(|mistaken| mistaken.help)
     }

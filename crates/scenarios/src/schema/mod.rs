@@ -94,7 +94,7 @@ fn example_of<A: TomlAsset>() -> Vec<Source> {
 
 /// A shipped file by its path and text.
 fn shipped((file, text): (&str, &str)) -> Source {
-    Source { file: file.into(), text: text.into() }
+    Source::new(file, text)
 }
 
 /// The schema of a type.
@@ -156,6 +156,9 @@ pub(crate) fn wholes(schema: &Value) -> Vec<(Option<&'static str>, &Value)> {
     }
 }
 
+#[cfg(test)]
+#[path = "bounds_tests.rs"]
+mod bounds_tests;
 #[cfg(test)]
 #[path = "schema_tests.rs"]
 mod tests;

@@ -77,7 +77,10 @@ fn what_tasks_have_in_common_is_one_key_for_all() {
 #[test]
 fn a_key_carries_type_default_and_need() {
     let speed = key("scenario", "task.push.push_speed_m_per_s");
-    assert_eq!((speed.takes.as_str(), speed.default, speed.needed), ("a number", Some(json!(0.02)), false));
+    assert_eq!(
+        (speed.takes.as_str(), speed.default, speed.needed),
+        ("a number from 0.0001 to 2", Some(json!(0.02)), false)
+    );
     let start = key("scenario", "task.push.start_m");
     assert_eq!((start.takes.as_str(), start.default, start.needed), ("a list of 2 numbers", None, true));
     assert_eq!(key("scenario", "world.obstacles").takes, "a list of tables");

@@ -16,7 +16,8 @@ pub(crate) struct Shown {
     pub text: String,
 }
 
-/// Finds a key in the files that show how keys are written, else in the others of their folder.
+/// Finds a key in the files that show how keys are written, else in the others of their folder; a key of some kinds of tasks in
+/// files of those alone.
 pub(crate) fn shown(kind: &FileKind, key: &Key, assets: &Assets) -> Option<Shown> {
     let built_in = kind.examples().into_iter().find_map(|source| shown_in(&source, key));
     built_in.or_else(|| {
@@ -36,11 +37,19 @@ fn files(kind: &FileKind, assets: &Assets) -> Vec<PathBuf> {
 
 fn shown_in(source: &Source, key: &Key) -> Option<Shown> {
     let tree = Node::parse(source).ok()?;
+    if !(key.tasks.is_empty() || key.tasks.iter().any(|task| is_of_task(&tree, task))) {
+        return None;
+    }
     let node = key.path.iter().try_fold(&tree, |node, step| below(node, step))?;
     let before = source.text.get(..node.key.start)?;
     let line = before.matches('\n').count();
     let text = source.text.lines().nth(line)?.trim().to_owned();
     Some(Shown { file: source.file.clone(), line: line + 1, text })
+}
+
+/// Whether a scenario's table `task` names this kind.
+fn is_of_task(tree: &Node, task: &str) -> bool {
+    tree.child("task").is_some_and(|named| named.child(task).is_some())
 }
 
 /// The value under a step, where the name of a kind without options stands for that kind, and any name for a free one.

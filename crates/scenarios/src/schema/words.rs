@@ -16,20 +16,37 @@ pub(super) fn type_in_words(schema: &Value, part: &Value) -> String {
     }
     match part["type"].as_str() {
         Some("array") => list_in_words(schema, part),
-        other => one_in_words(other, part).to_owned(),
+        other => format!("{}{}", one_in_words(other), range_in_words(part)),
     }
 }
 
-fn one_in_words(name: Option<&str>, part: &Value) -> &'static str {
+fn one_in_words(name: Option<&str>) -> &'static str {
     match name {
         Some("number") => "a number",
-        Some("integer") if part["minimum"] == 0 => "a whole number of at least 0",
         Some("integer") => "a whole number",
         Some("string") => "a text in quotes",
         Some("boolean") => "true or false",
         Some("object") => "a table",
         _ => "any value",
     }
+}
+
+/// " from 0 to 1", " greater than 0", " of at least 0"; nothing if any number will do.
+fn range_in_words(part: &Value) -> String {
+    let bound = |name: &str| part.get(name).filter(|bound| bound.is_number()).map(short_number);
+    match (bound("minimum"), bound("exclusiveMinimum"), bound("maximum")) {
+        (Some(least), None, Some(most)) => format!(" from {least} to {most}"),
+        (_, Some(below), Some(most)) => format!(" greater than {below}, at most {most}"),
+        (_, Some(below), None) => format!(" greater than {below}"),
+        (Some(least), None, None) => format!(" of at least {least}"),
+        (None, None, Some(most)) => format!(" of at most {most}"),
+        (None, None, None) => String::new(),
+    }
+}
+
+/// A number as messages show it: 0 and not 0.0.
+fn short_number(number: &Value) -> String {
+    number.as_f64().map_or_else(|| number.to_string(), |number| number.to_string())
 }
 
 /// "a list of 2 numbers", "a list of lists of 3 numbers", "a list of tables".

@@ -6,6 +6,7 @@ use crate::suggest::listed;
 use skills::field::FieldError;
 
 use super::factor::{Factor, Values};
+use crate::campaign::InvalidPoints;
 use crate::scenario::{LARGEST_SEED, check_key, is_in_name};
 
 /// More runs than this in one sweep are a slip of the finger: the manifest alone would take gigabytes.
@@ -44,6 +45,9 @@ pub struct Head {
     pub trials: u64,
     /// The first of them; the scenario's if absent.
     pub first_seed: Option<u64>,
+    /// What becomes of a point whose values make no valid scenario; if absent, `refuse` for a grid, whose values were
+    /// written by hand, and `record` for designs that draw theirs.
+    pub invalid_points: Option<InvalidPoints>,
 }
 
 fn one() -> u64 {
@@ -97,6 +101,15 @@ impl Design {
             Self::Random { .. } => "random",
             Self::LatinHypercube { .. } => "latin_hypercube",
             Self::Sobol { .. } => "sobol",
+        }
+    }
+
+    /// What becomes of points that make no valid scenario, if the file does not say.
+    #[must_use]
+    pub fn invalid_points(self) -> InvalidPoints {
+        match self {
+            Self::Grid {} => InvalidPoints::Refuse,
+            Self::Random { .. } | Self::LatinHypercube { .. } | Self::Sobol { .. } => InvalidPoints::Record,
         }
     }
 

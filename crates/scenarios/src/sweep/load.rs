@@ -1,6 +1,5 @@
 //! Reads a sweep file and plans its runs, with the place of whatever is wrong.
 
-use std::cell::Cell;
 use std::path::{Path, PathBuf};
 
 use toml::Value;
@@ -8,7 +7,7 @@ use toml::Value;
 use super::factor::Factor;
 use super::file::{Design, SweepFile};
 use crate::assets::Assets;
-use crate::campaign::{self, Manifest};
+use crate::campaign::{self, InvalidPoint, InvalidPoints, Manifest};
 use crate::diagnostic::Diagnostic;
 use crate::scenario::{
     Change, Context, Draft, LARGEST_SEED, Node, ResolvedScenario, Source, field_problem, load_text, name_of_file, path,
@@ -23,6 +22,13 @@ pub(crate) const EXAMPLE: (&str, &str) =
 /// Problems with one point that are shown.
 const SHOWN_PROBLEMS: usize = 3;
 
+/// First and last points that are looked at to tell a bad point from a bad key.
+const ENDS: usize = 4;
+
+/// How a sweep goes on without points that make no valid scenario.
+const RECORD: &str =
+    "`invalid_points = \"record\"` in [sweep] runs the other points, and keeps such ones as rows of status invalid";
+
 /// A checked sweep file.
 #[derive(Clone, Debug)]
 pub struct Sweep {
@@ -36,6 +42,8 @@ pub struct Sweep {
     pub trials: u64,
     /// The first of them.
     pub first_seed: u64,
+    /// What becomes of points that make no valid scenario.
+    pub invalid_points: InvalidPoints,
     /// The scenario without any change.
     pub scenario: ResolvedScenario,
     /// The scenario's file.
@@ -74,7 +82,7 @@ pub fn load_sweep(file: &Path, find_assets: &dyn Fn(&Path) -> Assets) -> Result<
         let help = format!("several seeds of one scenario are run by `wield run {} --trials 20`", file.display());
         return Err(vec![problem.help([help])]);
     }
-    let example = Source { file: EXAMPLE.0.into(), text: EXAMPLE.1.into() };
+    let example = Source::new(EXAMPLE.0, EXAMPLE.1);
     let Draft { value, tree, problems } = read_draft::<SweepFile>(&source, &example);
     // what is checked below may be missing only because it could not be read
     let (Some(value), Some(tree), true) = (value, tree, problems.is_empty()) else { return Err(problems) };
@@ -94,8 +102,9 @@ pub fn load_sweep(file: &Path, find_assets: &dyn Fn(&Path) -> Assets) -> Result<
         ]);
     }
     let name = value.sweep.name.clone().unwrap_or_else(|| name_of_file(file));
-    let trials = value.sweep.trials;
-    Ok(Sweep { name, design: value.design, factors, trials, first_seed, scenario, scenario_file, source, tree })
+    let (trials, design) = (value.sweep.trials, value.design);
+    let invalid_points = value.sweep.invalid_points.unwrap_or(design.invalid_points());
+    Ok(Sweep { name, design, factors, trials, first_seed, invalid_points, scenario, scenario_file, source, tree })
 }
 
 /// A file that cannot be read was expected to be a sweep.
@@ -131,23 +140,44 @@ impl Sweep {
     ///
     /// # Errors
     /// What is wrong with the first point that makes no valid scenario, at the factor that is at fault if it is a single
-    /// one.
+    /// one: if such points are refused, or if there is no other point.
     pub fn plan(&self, assets: &Assets, progress: &dyn Fn(usize, usize)) -> Result<Manifest, Vec<Diagnostic>> {
         let seeds = self.first_seed..self.first_seed + self.trials;
         let points = self.points();
         let runs: Vec<(Vec<Value>, u64)> =
             points.iter().flat_map(|point| seeds.clone().map(|seed| (point.clone(), seed))).collect();
-        let looked_at = Cell::new(0);
-        let count = |done: usize| {
-            looked_at.set(done);
-            progress(done, runs.len());
-        };
+        let count = |done: usize| progress(done, runs.len());
         let factors = self.factors.iter().map(|factor| campaign::Factor { key: factor.key.clone() }).collect();
-        let planned = campaign::plan(&self.scenario, &self.scenario_file, assets, factors, &runs, &count);
-        planned.map_err(|problems| match runs.get(looked_at.get()) {
-            Some((point, _)) => self.blamed(point, assets).map_or(problems, |problem| vec![problem]),
-            None => problems,
-        })
+        let planned =
+            campaign::plan(&self.scenario, &self.scenario_file, assets, factors, &runs, self.invalid_points, &count);
+        planned.map_err(|refused| self.explained(refused, &points, assets))
+    }
+
+    /// What is wrong with a point: blamed on a factor if one alone is at fault, with its values and how to go on without it.
+    fn explained(&self, refused: InvalidPoint, points: &[Vec<Value>], assets: &Assets) -> Vec<Diagnostic> {
+        let place = refused.index / usize::try_from(self.trials).unwrap_or(1).max(1);
+        let Some(point) = points.get(place).filter(|point| !point.is_empty()) else { return refused.problems };
+        let values: Vec<String> =
+            self.factors.iter().zip(point).map(|(factor, value)| format!("{} = {value}", factor.key)).collect();
+        let which = format!("this is point {} of {}: {}", place + 1, points.len(), values.join(", "));
+        let remedy = match self.invalid_points {
+            InvalidPoints::Record => Some("no point of the sweep makes a valid scenario"),
+            InvalidPoints::Refuse if self.has_valid_ends(points, assets) => Some(RECORD),
+            InvalidPoints::Refuse => None,
+        };
+        let problems = self.blamed(point, assets).map_or(refused.problems, |problem| vec![problem]);
+        let helps = || [which.clone()].into_iter().chain(remedy.map(str::to_owned));
+        problems.into_iter().map(|problem| problem.help(helps())).collect()
+    }
+
+    /// Whether some of the first or last points make valid scenarios: where a key is misspelled, none does.
+    fn has_valid_ends(&self, points: &[Vec<Value>], assets: &Assets) -> bool {
+        let is_valid = |point: &Vec<Value>| {
+            let pairs = self.factors.iter().zip(point);
+            let changes: Vec<Change> = pairs.map(|(factor, value)| Change::new(&factor.key, value.clone())).collect();
+            load_text(&self.scenario_file, &self.scenario.source, &changes, assets).is_ok()
+        };
+        points.iter().take(ENDS).chain(points.iter().rev().take(ENDS)).any(is_valid)
     }
 
     /// The factor whose value alone makes a scenario that cannot be run.

@@ -120,15 +120,63 @@ fn a_value_that_the_scenario_refuses_is_blamed_on_its_factor() {
         problem.starts_with("a.toml:5:16: the scenario cannot be run with object.table_friction = -0.4"),
         "{problem}"
     );
-    assert!(problem.contains("push.toml:") && problem.contains("found -0.4"), "{problem}");
+    assert!(
+        problem.contains("push.toml with object.table_friction = -0.4: bad value for `table_friction`"),
+        "{problem}"
+    );
     let text = format!("{HEAD}[[factor]]\nkey = \"object.mas_kg\"\nvalues = [0.2, 0.4]\n");
     let problem = refused(&text).remove(0);
     assert!(problem.starts_with("a.toml:4:7: ") && problem.contains("did you mean `mass_kg`?"), "{problem}");
+    assert!(!problem.contains("invalid_points"), "a misspelled key is no bad point: {problem}");
     let text = format!(
         "{HEAD}[design.random]\npoints = 4\n[[factor]]\nkey = \"tool.asset:friction\"\nuniform = {{ min = -2.0, max = -1.0 }}\n"
     );
     let problem = refused(&text).remove(0);
     assert!(problem.starts_with("a.toml:6:7: "), "{problem}");
+}
+
+/// Eight points of a friction of which some are below zero.
+const DRAWN: &str = "[design.random]\npoints = 8\n[[factor]]\nkey = \"object.table_friction\"\n\
+                     uniform = { min = -0.2, max = 0.4 }\n";
+
+#[test]
+fn a_drawn_point_that_makes_no_scenario_is_kept_with_its_reason_and_the_others_are_planned() {
+    let (_, manifest) = planned(&format!("{HEAD}trials = 2\n{DRAWN}")).unwrap();
+    let mut invalid = 0;
+    for run in &manifest.runs {
+        let friction = run.values[0].as_float().unwrap();
+        assert_eq!(run.invalid.is_empty(), friction > 0.0, "{run:?}");
+        for reason in &run.invalid {
+            invalid += 1;
+            assert!(reason.starts_with("push.toml") && reason.contains("`table_friction`"), "{reason}");
+        }
+    }
+    assert!((2..=12).contains(&invalid), "{invalid} of 16: some and not all");
+    let mut ids: Vec<_> = manifest.runs.iter().map(|run| run.run_id.clone()).collect();
+    ids.sort();
+    ids.dedup();
+    assert_eq!(ids.len(), 16, "runs without a scenario have identities of their own, too");
+    assert_eq!(planned(&format!("{HEAD}trials = 2\n{DRAWN}")).unwrap().1.runs, manifest.runs, "whatever the folder");
+}
+
+#[test]
+fn whoever_wants_every_point_to_be_valid_is_told_which_is_not_and_how_to_go_on() {
+    let problem = refused(&format!("{HEAD}invalid_points = \"refuse\"\n{DRAWN}")).remove(0);
+    for part in ["object.table_friction = -0.", " of 8: object.table_friction = -0.", "`invalid_points = \"record\"`"] {
+        assert!(problem.contains(part), "{part}: {problem}");
+    }
+    let grid = "[[factor]]\nkey = \"object.table_friction\"\nvalues = [0.2, -0.4]\n";
+    let problem = refused(&format!("{HEAD}{grid}")).remove(0);
+    assert!(problem.contains("this is point 2 of 2: object.table_friction = -0.4"), "{problem}");
+    let (_, manifest) = planned(&format!("{HEAD}invalid_points = \"record\"\n{grid}")).unwrap();
+    assert_eq!(manifest.runs.iter().map(|run| run.invalid.len()).collect::<Vec<_>>(), [0, 1]);
+}
+
+#[test]
+fn a_sweep_without_any_valid_point_is_refused_however_it_treats_single_ones() {
+    let text = format!("{HEAD}[design.sobol]\npoints = 4\n[[factor]]\nkey = \"object.mas_kg\"\nvalues = [0.2, 0.4]\n");
+    let problem = refused(&text).remove(0);
+    assert!(problem.contains("did you mean `mass_kg`?") && problem.contains("no point of the sweep"), "{problem}");
 }
 
 #[test]

@@ -9,6 +9,7 @@
 //! scenario = "../push_transfer_l.toml"       # relative to this file
 //! trials = 10                                # seeds at each point, the same for all: differences are paired
 //! first_seed = 1                             # the scenario's if absent
+//! invalid_points = "record"                  # or "refuse", which is usual for a grid: points that make no valid scenario
 //!
 //! [design.latin_hypercube]                   # or grid, which is usual, random, sobol
 //! points = 64

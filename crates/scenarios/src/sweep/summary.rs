@@ -5,7 +5,7 @@ use toml::Value;
 
 use crate::campaign::{CampaignFolder, FolderError, Manifest, Row, Shard};
 use crate::statistics::wilson;
-use crate::trials::Status;
+use crate::trials::{Status, distinct};
 
 /// Version of the layout of a summary.
 pub const SUMMARY_SCHEMA: &str = "wield.sweep/1";
@@ -52,7 +52,9 @@ pub struct LevelSummary {
     pub crashed: usize,
     /// Those that make no sense with their seed.
     pub refused: usize,
-    /// Wilson's 95 % interval of the share of those that kept all limits.
+    /// Those that were not run, because the values of their point make no valid scenario.
+    pub invalid: usize,
+    /// Wilson's 95 % interval of the share of those that kept all limits, of those that could be run.
     pub success_interval_95: [f64; 2],
     /// The judged measures.
     pub measures: Vec<MeasureSummary>,
@@ -74,6 +76,7 @@ pub struct MeasureSummary {
 /// What is kept of a row: how it ended, and its judged measures.
 struct Ended {
     status: Status,
+    digest: Option<String>,
     measures: Vec<(String, String, f64)>,
 }
 
@@ -81,7 +84,7 @@ impl Ended {
     fn of(row: Row) -> Self {
         let judged = row.measures.into_iter().filter(|measure| measure.limit.is_some());
         let measures = judged.filter_map(|measure| Some((measure.name, measure.unit, measure.value?))).collect();
-        Self { status: row.status, measures }
+        Self { status: row.status, digest: row.trajectory_digest, measures }
     }
 }
 
@@ -121,7 +124,9 @@ impl SweepSummary {
 impl LevelSummary {
     fn new(value: Option<Value>, ended: &[&Ended]) -> Self {
         let count = |status| ended.iter().filter(|ended| ended.status == status).count();
-        let success = count(Status::Success);
+        let (success, invalid) = (count(Status::Success), count(Status::Invalid));
+        let made = ended.iter().filter(|ended| ended.status != Status::Invalid);
+        let (runs, successes) = distinct(made.map(|ended| (ended.digest.as_deref(), ended.status)));
         Self {
             value,
             done: ended.len(),
@@ -129,15 +134,22 @@ impl LevelSummary {
             missed: count(Status::Missed),
             crashed: count(Status::Crashed),
             refused: count(Status::Refused),
-            success_interval_95: wilson(success, ended.len()),
+            invalid,
+            success_interval_95: wilson(successes, runs),
             measures: measures(ended),
         }
     }
 
-    /// Share of the runs that kept all limits; `None` before the first ended.
+    /// Runs that ended and could be run at all.
+    #[must_use]
+    pub fn made(&self) -> usize {
+        self.done - self.invalid
+    }
+
+    /// Share of the runs that could be made which kept all limits; `None` before the first ended.
     #[must_use]
     pub fn success_rate(&self) -> Option<f64> {
-        (self.done > 0).then(|| self.success as f64 / self.done as f64)
+        (self.made() > 0).then(|| self.success as f64 / self.made() as f64)
     }
 
     /// Number of runs that came to no outcome.
@@ -195,7 +207,7 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::assets::Assets;
-    use crate::campaign::{Factor, Journal, PlannedRun, plan};
+    use crate::campaign::{Factor, InvalidPoints, Journal, PlannedRun, plan};
     use crate::outcome::{Limit, Measure};
 
     #[test]
@@ -223,7 +235,7 @@ mod tests {
         let points: Vec<_> =
             [0.4, 0.2].iter().flat_map(|&value| (1..=2).map(move |seed| (vec![Value::Float(value)], seed))).collect();
         let factors = vec![Factor { key: "object.table_friction".into() }];
-        let manifest = plan(&scenario, &file, &assets, factors, &points, &|_| {}).unwrap();
+        let manifest = plan(&scenario, &file, &assets, factors, &points, InvalidPoints::Refuse, &|_| {}).unwrap();
         let root = tempfile::tempdir().unwrap();
         let folder = CampaignFolder::at(root.path());
         folder.prepare(&manifest).unwrap();

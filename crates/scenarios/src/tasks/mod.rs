@@ -20,6 +20,13 @@ pub mod pour;
 pub mod push;
 pub mod reach;
 mod runnable;
+// the task that CONTRIBUTING.md shows, so that it compiles
+#[cfg(test)]
+#[path = "../../../../tests/authoring/scoop.rs"]
+pub mod scoop;
+#[cfg(test)]
+#[path = "../../../../tests/authoring/scoop_tests.rs"]
+mod scoop_tests;
 pub mod spatial;
 
 use std::fmt;
@@ -54,6 +61,9 @@ pub enum ResolvedTask {
     Reach(Box<reach::ResolvedReach>),
     /// Pour beans from a held cup into a container.
     Pour(Box<pour::ResolvedPour>),
+    /// Bring grains from one bowl to another with a spoon.
+    #[cfg(test)]
+    Scoop(Box<scoop::ResolvedScoop>),
 }
 
 impl ResolvedTask {
@@ -64,6 +74,8 @@ impl ResolvedTask {
             Self::Cut(cut) => cut.as_ref(),
             Self::Reach(reach) => reach.as_ref(),
             Self::Pour(pour) => pour.as_ref(),
+            #[cfg(test)]
+            Self::Scoop(scoop) => scoop.as_ref(),
         }
     }
 }
@@ -201,7 +213,7 @@ impl TaskKind {
     /// A scenario of this kind that shows how keys are written.
     pub(crate) fn example(&self) -> Source {
         let (file, text) = self.example;
-        Source { file: file.into(), text: text.into() }
+        Source::new(file, text)
     }
 }
 

@@ -94,7 +94,7 @@ pub fn design_title(file: &Path) -> Option<String> {
 /// Everything that is wrong: at least one [`Diagnostic`].
 pub fn load_design(file: &Path, find_assets: &dyn Fn(&Path) -> Assets) -> Result<DesignTask, Vec<Diagnostic>> {
     let source = Source::read(file).map_err(|problem| vec![*problem])?;
-    let example = Source { file: EXAMPLE.0.into(), text: EXAMPLE.1.into() };
+    let example = Source::new(EXAMPLE.0, EXAMPLE.1);
     let Draft { value, tree, mut problems } = read_draft::<DesignFile>(&source, &example);
     let (Some(value), Some(tree)) = (value, tree) else { return Err(problems) };
     let context = Context { source: &source, tree: &tree, example: &example };

@@ -98,7 +98,7 @@ impl<'a> Trying<'a> {
         let planned = (first..first + count).zip(self.next_index..).map(|(seed, index)| {
             let run_id = run_id(&scenario, seed).map_err(io::Error::other)?;
             let values = values.iter().map(|&value| toml::Value::Float(value)).collect();
-            Ok(PlannedRun { index, run_id, seed, values })
+            Ok(PlannedRun { index, run_id, seed, values, invalid: Vec::new() })
         });
         let planned = planned.collect::<io::Result<Vec<PlannedRun>>>()?;
         self.next_index += count;

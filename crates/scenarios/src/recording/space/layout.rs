@@ -13,6 +13,8 @@ use crate::recording::{plane_layout, style};
 
 /// Where the eye stands, seen from the middle of the scene: to the front, to the side, above.
 const EYE_DIRECTION: [f64; 3] = [1.0, -0.9, 0.55];
+/// Plots on a page: of more of them, the axes have one number.
+const PLOTS: usize = 3;
 /// Distance of the eye over the radius of what is worth seeing.
 const EYE_DISTANCE: f64 = 2.0;
 
@@ -45,22 +47,94 @@ pub(in crate::recording) fn space(
     Ok(view)
 }
 
+/// Curves by subject: what matters most on the first page, the others behind it, three plots to a page, for all of them to have
+/// a readable axis.
 fn right(layout: &mut Layout, scene: &SceneDescription) -> RecordingStreamResult<Node> {
-    let mut plots: Vec<Node> = Vec::new();
+    let (main, others) = task_plots(scene);
+    let mut first: Vec<Node> =
+        main.iter().map(|title| task_view(layout, title)).collect::<RecordingStreamResult<_>>()?;
+    if first.is_empty() {
+        first.extend(tracking(layout)?);
+    }
+    if first.len() < PLOTS {
+        first.push(force(layout)?);
+    }
+    let mut pages = vec![page(layout, "run", &first)?];
+    for titles in others.chunks(PLOTS) {
+        let views: Vec<Node> =
+            titles.iter().map(|title| task_view(layout, title)).collect::<RecordingStreamResult<_>>()?;
+        pages.push(page(layout, "process", &views)?);
+    }
+    let mut tool: Vec<Node> = tracking(layout)?.into();
+    tool.push(force(layout)?);
+    pages.push(page(layout, "tool", &tool)?);
+    pages.extend(layout.joints()?);
+    pages.push(layout.curves("action", &["+ /plots/state/**"])?);
+    let curves = layout.container(ContainerKind::Tabs, "curves", &pages.iter().collect::<Vec<_>>(), &[])?;
+    let texts = layout.texts()?;
+    layout.container(ContainerKind::Vertical, "curves and texts", &[&curves, &texts], &[2.6, 1.0])
+}
+
+/// Titles of the task's plots: those of the first page, and the others.
+fn task_plots(scene: &SceneDescription) -> (Vec<&str>, Vec<&str>) {
     let mut titles: Vec<&str> = Vec::new();
     for series in &scene.series {
         if !titles.contains(&series.plot.as_str()) {
             titles.push(&series.plot);
-            plots.push(layout.curves(&series.plot, &[&format!("+ /plots/{}/**", task_plot(&series.plot))])?);
         }
     }
-    plots.push(layout.curves("force on the tool [N]", &["+ /plots/force/**"])?);
-    plots.push(layout.curves("tool to its reference [mm, mrad]", &["+ /plots/tracking/**"])?);
-    plots.push(layout.curves("joint torques [N m]", &["+ /plots/joint_torque/**"])?);
-    let run = layout.container(ContainerKind::Vertical, "run", &plots.iter().collect::<Vec<_>>(), &[])?;
-    let joints = layout.joints()?;
-    let states = layout.curves("action", &["+ /plots/state/**"])?;
-    let curves = layout.container(ContainerKind::Tabs, "curves", &[&run, &joints, &states], &[])?;
-    let texts = layout.texts()?;
-    layout.container(ContainerKind::Vertical, "curves and texts", &[&curves, &texts], &[2.6, 1.0])
+    let named = |title: &&str| scene.main_plots.iter().any(|main| main == title);
+    let (mut main, mut others): (Vec<&str>, Vec<&str>) = match scene.main_plots.is_empty() {
+        true => (titles, Vec::new()),
+        false => titles.into_iter().partition(named),
+    };
+    let rest = main.split_off(main.len().min(PLOTS));
+    others.splice(0..0, rest);
+    (main, others)
+}
+
+fn task_view(layout: &mut Layout, title: &str) -> RecordingStreamResult<Node> {
+    layout.curves(title, &[&format!("+ /plots/{}/**", task_plot(title))])
+}
+
+fn tracking(layout: &mut Layout) -> RecordingStreamResult<[Node; 2]> {
+    Ok([
+        layout.curves("tool to its reference [mm]", &["+ /plots/tracking/distance"])?,
+        layout.curves("turn of the tool to its reference [mrad]", &["+ /plots/tracking/angle"])?,
+    ])
+}
+
+fn force(layout: &mut Layout) -> RecordingStreamResult<Node> {
+    layout.curves("force on the tool [N]", &["+ /plots/force/**"])
+}
+
+fn page(layout: &mut Layout, name: &str, views: &[Node]) -> RecordingStreamResult<Node> {
+    layout.container(ContainerKind::Vertical, name, &views.iter().collect::<Vec<_>>(), &[])
+}
+
+#[cfg(test)]
+mod tests {
+    use sim::spatial::Series;
+
+    use super::*;
+
+    fn scene(plots: &[&str], main: &[&str]) -> SceneDescription {
+        let series = |plot: &&str| Series { plot: (*plot).into(), name: "a".into() };
+        SceneDescription {
+            series: plots.iter().map(series).collect(),
+            main_plots: main.iter().map(|plot| (*plot).to_owned()).collect(),
+            ..SceneDescription::default()
+        }
+    }
+
+    #[test]
+    fn the_first_page_has_three_plots_of_the_task_at_most_and_no_plot_is_lost() {
+        let scene_of_five = scene(&["a", "b", "b", "c", "d", "e"], &[]);
+        assert_eq!(task_plots(&scene_of_five), (vec!["a", "b", "c"], vec!["d", "e"]));
+        let told = scene(&["a", "b", "b", "c", "d", "e"], &["a", "d"]);
+        assert_eq!(task_plots(&told), (vec!["a", "d"], vec!["b", "c", "e"]));
+        let too_many = scene(&["a", "b", "c", "d", "e"], &["e", "d", "c", "b"]);
+        assert_eq!(task_plots(&too_many), (vec!["b", "c", "d"], vec!["e", "a"]));
+        assert_eq!(task_plots(&scene(&[], &[])), (vec![], vec![]));
+    }
 }

@@ -27,20 +27,20 @@ impl Plots {
     /// Room for `rows` rows of `scene`.
     pub(super) fn new(scene: &SceneDescription, rows: usize) -> Self {
         let mut curves = Curves::with_capacity(rows);
-        for (path, name, color) in [
-            ("tracking/distance", "tool to its reference [mm]", style::TOOL),
-            ("tracking/angle", "tool to its reference [mrad]", style::TOOL_PLAN),
-            ("force/x", "force on the tool, x [N]", style::JOINTS[0]),
-            ("force/y", "force on the tool, y [N]", style::JOINTS[1]),
-            ("force/z", "force on the tool, z [N]", style::JOINTS[2]),
-            ("force/peak", "force on the tool, peak [N]", style::FORCE),
-            ("state/action", "action [number]", style::TOOL),
+        for (path, name, legend, color) in [
+            ("tracking/distance", "tool to its reference [mm]", "distance [mm]", style::TOOL),
+            ("tracking/angle", "turn of the tool to its reference [mrad]", "angle [mrad]", style::TOOL_PLAN),
+            ("force/x", "force on the tool, x [N]", "x [N]", style::JOINTS[0]),
+            ("force/y", "force on the tool, y [N]", "y [N]", style::JOINTS[1]),
+            ("force/z", "force on the tool, z [N]", "z [N]", style::JOINTS[2]),
+            ("force/peak", "force on the tool, peak [N]", "peak [N]", style::FORCE),
+            ("state/action", "action [number]", "action", style::TOOL),
         ] {
-            curves.add(path, name, color);
+            curves.add_short(path, name, legend, color);
         }
         curves.add_joints(&scene.arm.joints);
         for (series, color) in scene.series.iter().zip(style::JOINTS.iter().cycle()) {
-            curves.add(&format!("{}/{}", task_plot(&series.plot), part(&series.name)), series.name.as_str(), *color);
+            curves.add(&format!("{}/{}", task_plot(&series.plot), part(&series.name)), &series.name, *color);
         }
         Self { curves, joints: scene.arm.joints.clone(), torque_limits_nm: scene.arm.torque_limits_nm.clone() }
     }

@@ -11,6 +11,7 @@ use skills::field::{FieldError, finite, within};
 #[serde(deny_unknown_fields)]
 pub struct CutConfig {
     /// Where the origin of the food's frame lies on the board, x and y of the world, m.
+    #[schemars(inner(range(min = -FARTHEST_M, max = FARTHEST_M)))]
     pub food_at_m: [f64; 2],
     /// Turn of the food about the vertical, rad: a food's long axis is its x axis, and the edge is held across it, its tip
     /// along the world's x axis at the default of a quarter turn.
@@ -22,12 +23,14 @@ pub struct CutConfig {
     #[serde(default)]
     pub tilts_rad: Vec<f64>,
     /// Where the knife waits before, the middle of the straight part of its edge, world frame, m.
+    #[schemars(inner(range(min = -FARTHEST_M, max = FARTHEST_M)))]
     pub home_m: [f64; 3],
     /// How the knife moves.
     #[serde(default)]
     pub motion: CutOptions,
     /// Time that the pieces are given to come to rest after the last cut, s.
     #[serde(default = "default_settle_s")]
+    #[schemars(range(min = 0.0, max = LONGEST_SETTLE_S))]
     pub settle_s: f64,
 }
 

@@ -1,6 +1,6 @@
 //! The demonstration of one cut: shown by a synthetic human, or recorded.
 
-use nalgebra::Isometry3;
+use nalgebra::{Isometry3, Point3};
 use sim::cutting::knife::Knife;
 use sim::cutting::scene::knife_from_tool;
 use sim::random::{Purpose, stream};
@@ -10,11 +10,14 @@ use skills::primitive::pose::{PoseError, PoseTrajectory};
 use super::CutTask;
 use super::holding::LevelEdge;
 use super::places::{extent_m, lying, place};
-use super::sections::{DemonstrationsConfig, RecordedConfig, SyntheticConfig};
+use super::showing::{DemonstrationsConfig, RecordedConfig, SyntheticConfig};
 use crate::pipeline::Progress;
 use crate::scenario::ResolvedScenario;
-use crate::tasks::spatial::{Trial, run_trials, write_poses};
+use crate::tasks::spatial::{Trial, check_near, run_trials, write_poses};
 use crate::tasks::{DemonstrationTrial, ShownTrial, StageError};
+
+/// Distance of the middle of an edge from what it cuts, m, from which on something else was recorded.
+const FARTHEST_M: f64 = 0.25;
 
 /// A demonstration of a cut.
 pub(crate) struct Shown {
@@ -100,6 +103,8 @@ fn recorded_cut(task: &CutTask<'_>, config: &RecordedConfig) -> Result<CutDemons
     let world_from_food = lying(&food, config.food_at_m, config.food_angle_rad, config.board_top_m);
     let along_m = config.at_share * extent_m(&food, &world_from_food).0;
     let section = place(&food, &world_from_food, config.board_top_m, along_m, 0.0).map_err(StageError::Input)?.section;
+    let top = Point3::from(section.world_from_section.translation.vector);
+    check_near(poses, &Point3::origin(), &top, "the food", FARTHEST_M)?;
     let knife_motion = other_frame(poses, &tool_from_blade(knife))
         .map_err(|error| StageError::Broken(format!("demonstrate: {error}")))?;
     Ok(CutDemonstration { knife: knife_motion, section, blade: LevelEdge::of(knife).blade })

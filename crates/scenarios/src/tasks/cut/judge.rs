@@ -187,6 +187,12 @@ fn forces(task: &CutTask<'_>, seen: &CutEpisode) -> Vec<Measure> {
             per_area(total(|cut| cut.energy.fracture_j)),
             "J/m2",
         ),
+        Measure::reported(
+            "unaccounted_per_area_j_per_m2",
+            "work of the knife that no part of it accounts for, by cut area",
+            per_area(total(|cut| cut.energy.balance_j())),
+            "J/m2",
+        ),
         Measure::reported("slice_push_ratio_mean", "way along the edge by way into the food, mean", ratio, "1"),
         Measure::reported("strokes", "strokes to and fro, all cuts", total(|cut| cut.strokes as f64), "1"),
         Measure::reported(

@@ -3,6 +3,7 @@
 mod actual;
 mod config;
 mod demonstrations;
+mod expected;
 mod expecting;
 mod holding;
 mod judge;
@@ -11,6 +12,8 @@ mod places;
 mod resolved;
 mod scenario;
 mod sections;
+mod showing;
+mod toughness;
 mod variation;
 
 use nalgebra::{Isometry3, Point3, Translation3};
@@ -24,10 +27,8 @@ use skills::spatial::{SpatialPlan, SpatialReport};
 pub use config::{CutConfig, Wanted};
 pub use resolved::ResolvedCut;
 pub use scenario::{CutScenario, CutTable};
-pub use sections::{
-    BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig, RecordedConfig,
-    SkillKind, SyntheticConfig,
-};
+pub use sections::{BoardConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig, SkillKind};
+pub use showing::{DemonstrationsConfig, RecordedConfig, SyntheticConfig};
 pub use variation::{Variation, VariationConfig};
 
 use self::actual::{Actual, Lying};

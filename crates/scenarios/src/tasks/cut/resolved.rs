@@ -10,7 +10,7 @@ use super::actual::Actual;
 use super::config::Wanted;
 use super::places::extent_m;
 use super::scenario::CutScenario;
-use super::sections::DemonstrationsConfig;
+use super::showing::DemonstrationsConfig;
 use super::{CutTask, KIND};
 use crate::assets::AssetKind;
 use crate::scenario::named::{TomlAsset, field_problem};

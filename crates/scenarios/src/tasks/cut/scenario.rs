@@ -9,9 +9,8 @@ use skills::field::FieldError;
 use skills::spatial::SpatialLimits;
 
 use super::config::CutConfig;
-use super::sections::{
-    BoardConfig, DemonstrationsConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig,
-};
+use super::sections::{BoardConfig, ExecutionConfig, FoodConfig, KnifeConfig, Limits, LookConfig};
+use super::showing::DemonstrationsConfig;
 use super::variation::VariationConfig;
 use crate::scenario::{ArmKeys, Header, RecordingConfig, ScenarioFile};
 use crate::tasks::spatial::SpatialRobotConfig;

@@ -1,4 +1,4 @@
-//! Sections of a cutting scenario: food, knife, board, demonstrations, how the plan is carried out, when it counts as done.
+//! Sections of a cutting scenario: food, knife, board, how the plan is carried out, when it counts as done.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use sim::cutting::food::{FoodFile, FoodSample};
 use sim::cutting::mechanics::Thresholds;
 use sim::cutting::scene::CuttingBoard;
-use skills::cutting::CutHuman;
 use skills::field::{FieldError, finite, not_negative, positive, within};
 
 /// What is cut.
@@ -25,9 +24,11 @@ pub struct FoodConfig {
     pub toughness_j_per_m2: Option<f64>,
     /// Shear stress between the flanks of the blade and the food, Pa; the file's if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
     pub flank_shear_pa: Option<f64>,
     /// Coefficient of friction on the board; the file's if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub board_friction: Option<f64>,
 }
 
@@ -109,12 +110,15 @@ impl KnifeConfig {
 #[serde(deny_unknown_fields)]
 pub struct BoardConfig {
     /// Middle of its upper side, world frame, m.
+    #[schemars(inner(range(min = -FARTHEST_M, max = FARTHEST_M)))]
     pub center_m: [f64; 3],
     /// Full lengths along x, y and z, m.
     #[serde(default = "default_size_m")]
+    #[schemars(inner(range(min = 0.002, max = 4.0)))]
     pub size_m: [f64; 3],
     /// Coefficient of friction of the knife on the board, and the most that any food has on it.
     #[serde(default = "default_friction")]
+    #[schemars(range(min = 0.0, max = 2.0))]
     pub friction: f64,
 }
 
@@ -160,124 +164,6 @@ impl BoardConfig {
     }
 }
 
-/// Where the demonstration of one cut comes from.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum DemonstrationsConfig {
-    /// A synthetic human shows one cut.
-    Synthetic(SyntheticConfig),
-    /// A recorded cut.
-    Recorded(RecordedConfig),
-    /// None: the skill was learned before, by `wield learn`.
-    Learned {
-        /// Name of a file in `assets/skills`, without its ending.
-        asset: String,
-    },
-}
-
-/// One cut of a synthetic human, on the scenario's board.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SyntheticConfig {
-    /// Food that the human cuts: a file in `assets/foods`; the scenario's food if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-asset" = "foods"))]
-    pub food: Option<String>,
-    /// Knife that the human holds: a file in `assets/knives`; the scenario's knife if absent.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-asset" = "knives"))]
-    pub knife: Option<String>,
-    /// Place of the cut, as a share of the food's length.
-    pub at_share: f64,
-    /// The human.
-    pub human: CutHuman,
-}
-
-/// A recorded cut, and where and with what it was shown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RecordedConfig {
-    /// Name of a file in `assets/demonstrations`, without its ending: poses of the middle of the edge.
-    #[schemars(extend("x-asset" = "demonstrations"))]
-    pub asset: String,
-    /// Food that was cut: a file in `assets/foods`; the scenario's food if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-asset" = "foods"))]
-    pub food: Option<String>,
-    /// Knife that was held: a file in `assets/knives`; the scenario's knife if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-asset" = "knives"))]
-    pub knife: Option<String>,
-    /// Where the origin of the food's frame was on the board, x and y, m.
-    pub food_at_m: [f64; 2],
-    /// Turn of the food about the vertical, rad.
-    pub food_angle_rad: f64,
-    /// Height of the board's upper side, m.
-    pub board_top_m: f64,
-    /// Place of the cut, as a share of the food's length.
-    #[serde(default = "middle")]
-    pub at_share: f64,
-}
-
-/// The middle of a food.
-fn middle() -> f64 {
-    0.5
-}
-
-impl Default for SyntheticConfig {
-    fn default() -> Self {
-        Self { food: None, knife: None, at_share: middle(), human: CutHuman::default() }
-    }
-}
-
-impl DemonstrationsConfig {
-    /// Names of the food and the knife that were shown, if they are not the scenario's: keys and values.
-    pub(super) fn names(&self) -> [(&'static str, Option<&str>); 2] {
-        match self {
-            Self::Synthetic(synthetic) => [
-                ("demonstrations.synthetic.food", synthetic.food.as_deref()),
-                ("demonstrations.synthetic.knife", synthetic.knife.as_deref()),
-            ],
-            Self::Recorded(recorded) => [
-                ("demonstrations.recorded.food", recorded.food.as_deref()),
-                ("demonstrations.recorded.knife", recorded.knife.as_deref()),
-            ],
-            Self::Learned { .. } => [("demonstrations.learned.asset", None); 2],
-        }
-    }
-
-    /// Checks the values.
-    ///
-    /// # Errors
-    /// A [`FieldError`] naming the offending one.
-    pub(super) fn validate(&self) -> Result<(), FieldError> {
-        match self {
-            Self::Synthetic(synthetic) => synthetic.validate().map_err(|error| error.within("synthetic")),
-            Self::Recorded(recorded) => recorded.validate().map_err(|error| error.within("recorded")),
-            Self::Learned { .. } => Ok(()),
-        }
-    }
-}
-
-/// A cut nearer to an end than this shows the cut of a rounding, as a share of the length.
-const SHOWN_SHARES: [f64; 2] = [0.05, 0.95];
-
-impl SyntheticConfig {
-    fn validate(&self) -> Result<(), FieldError> {
-        within("at_share", self.at_share, SHOWN_SHARES[0], SHOWN_SHARES[1])?;
-        self.human.validate().map_err(|error| error.within("human"))
-    }
-}
-
-impl RecordedConfig {
-    fn validate(&self) -> Result<(), FieldError> {
-        finite("food_at_m", &self.food_at_m)?;
-        finite("food_angle_rad", &[self.food_angle_rad])?;
-        finite("board_top_m", &[self.board_top_m])?;
-        within("at_share", self.at_share, SHOWN_SHARES[0], SHOWN_SHARES[1])
-    }
-}
-
 /// How the demonstrated cut is made one of other foods.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -313,8 +199,10 @@ impl Default for ExecutionConfig {
 pub struct LookConfig {
     /// Standard deviation of each coordinate of its seen place, m. By default half a millimeter: what remains of a camera's
     /// calibration to the arm once the noise of its pictures is averaged out. Estimate.
+    #[schemars(range(min = 0.0, max = LARGEST_NOISE_M))]
     pub place_noise_m: f64,
     /// Standard deviation of its seen angle, rad.
+    #[schemars(range(min = 0.0, max = LARGEST_NOISE_RAD))]
     pub angle_noise_rad: f64,
 }
 
@@ -344,14 +232,18 @@ impl LookConfig {
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Largest root mean square error of the pieces' lengths, m.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub thickness_error_rms_m: f64,
     /// Largest share of mass that may be lost or won by cutting.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass_error_share: f64,
     /// Largest mean deviation Ra of any cut face, m; any if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mean_deviation_m: Option<f64>,
     /// Largest tilt of any cut face from the wanted plane, rad; any if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub tilt_rad: Option<f64>,
     /// What counts as a failed cut.
     pub failing: Thresholds,

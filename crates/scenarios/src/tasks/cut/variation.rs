@@ -13,14 +13,18 @@ use skills::field::{FieldError, within};
 #[serde(default, deny_unknown_fields)]
 pub struct VariationConfig {
     /// Largest difference of all lengths of the food, as a share of the stated ones, all equally likely.
+    #[schemars(range(min = 0.0, max = LARGEST_SIZE_SHARE))]
     pub size_share: f64,
     /// Whether the toughness is drawn from the range in the food's file; equal ratios are equally likely.
     pub toughness: bool,
     /// Largest difference of each coordinate of the food's place, m, all equally likely.
+    #[schemars(range(min = 0.0, max = FARTHEST_M))]
     pub place_m: f64,
     /// Largest difference of the food's angle, rad, all equally likely.
+    #[schemars(range(min = 0.0, max = LARGEST_ANGLE_RAD))]
     pub angle_rad: f64,
     /// Largest difference of the friction between food and board, as a share of the stated one, all equally likely.
+    #[schemars(range(min = 0.0, max = LARGEST_FRICTION_SHARE))]
     pub board_friction_share: f64,
 }
 

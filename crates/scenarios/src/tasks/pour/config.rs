@@ -19,6 +19,7 @@ pub struct GrainsConfig {
     pub bean: GrainConfig,
     /// Angle at which the surface of the fill is stable, rad: the planner reckons the onset of the flow with it.
     #[serde(default = "default_stability_rad")]
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub stability_rad: f64,
 }
 
@@ -84,6 +85,7 @@ pub struct PourConfig {
     pub options: PourOptions,
     /// Time after the plan's end in which grains come to rest, s.
     #[serde(default = "default_settle_s")]
+    #[schemars(range(min = 0.0, max = LONGEST_SETTLE_S))]
     pub settle_s: f64,
 }
 
@@ -96,6 +98,7 @@ fn default_settle_s() -> f64 {
 #[serde(deny_unknown_fields)]
 pub struct AmountConfig {
     /// Mass wanted in the target, kg; a scale under it tells what has landed.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub wanted_kg: f64,
     /// How it is approached.
     #[serde(default)]
@@ -160,13 +163,16 @@ pub struct RecordedPour {
 #[serde(default, deny_unknown_fields)]
 pub struct PourLimits {
     /// Largest share of the grains that is spilt.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub spilt_share: f64,
     /// Largest share that is left in the cup; of no account where an amount is wanted.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub left_share: f64,
     /// Most times that the cup touches the target.
     pub cup_touches: usize,
     /// Largest difference of what was poured from the amount wanted, kg; 4.5 g by default, by which a packed 100 g may fall short
     /// (Directive 76/211/EEC, annex I: 4.5 g from 50 to 100 g, 4.5 % from 100 to 200 g).
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub amount_error_kg: f64,
 }
 

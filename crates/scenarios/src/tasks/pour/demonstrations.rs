@@ -8,8 +8,11 @@ use super::config::{PourDemonstrations, SyntheticPour};
 use super::vessel::{standing, upright};
 use super::{PourTask, ShownVessels, refused};
 use crate::pipeline::Progress;
-use crate::tasks::spatial::{Trial, run_trials, write_poses};
+use crate::tasks::spatial::{Trial, check_near, run_trials, write_poses};
 use crate::tasks::{DemonstrationTrial, ShownTrial, StageError};
+
+/// Distance of a lip from the rim that it pours over, m, from which on something else was recorded.
+const FARTHEST_M: f64 = 0.15;
 
 /// A demonstration of a pour.
 pub(crate) struct Shown {
@@ -31,6 +34,8 @@ pub(super) fn obtain(task: &PourTask<'_>, progress: Progress<'_>) -> Result<Show
                 return Err(StageError::Broken("demonstrate: the recording was not read".into()));
             };
             let mouth = vessels.target.mouth(&standing(config.place_m));
+            let most_m = mouth.radius_m + FARTHEST_M;
+            check_near(cup, &vessels.source.cup().lip(), &mouth.center_world, "the mouth", most_m)?;
             shown.demonstration = Some(PourDemonstration { cup: cup.clone(), source: vessels.source.cup(), mouth });
             shown.name.clone_from(&config.asset);
         }

@@ -12,6 +12,8 @@ use crate::tasks::spatial::arm_measures;
 const MM: f64 = 1e3;
 const GRAMS: f64 = 1e3;
 const PERCENT: f64 = 100.0;
+/// A link that touches the target is at 0, as is one inside of it.
+const LEAST_ARM_TO_TARGET_MM: f64 = 0.1;
 
 /// All measures of a run.
 pub(super) fn measures(scenario: &PourScenario, planned: &Planned, episode: &PourEpisode) -> Vec<Measure> {
@@ -32,7 +34,7 @@ fn amounts(scenario: &PourScenario, poured: &PourResult) -> Vec<Measure> {
     let (counts, masses) = (&poured.counts, &poured.masses);
     let percent = |count: usize| PERCENT * count as f64 / counts.total().max(1) as f64;
     let count = |name: &str, label: &str, count: usize| Measure::reported(name, label, count as f64, "1");
-    let left_label = "beans left in the cup";
+    let left_label = "beans left in the cup, share";
     let left = match amount {
         None => Measure::judged(
             "left_percent",
@@ -46,13 +48,13 @@ fn amounts(scenario: &PourScenario, poured: &PourResult) -> Vec<Measure> {
     let mut measures = vec![
         Measure::judged(
             "spilt_percent",
-            "beans spilt",
+            "beans spilt, share",
             percent(counts.spilt),
             "%",
             Limit::AtMost(PERCENT * limits.spilt_share),
         ),
         left,
-        Measure::reported("collected_percent", "beans collected", percent(counts.target), "%"),
+        Measure::reported("collected_percent", "beans collected, share", percent(counts.target), "%"),
     ];
     if let Some(amount) = amount {
         let error_kg = masses.target_kg - amount.wanted_kg;
@@ -66,11 +68,11 @@ fn amounts(scenario: &PourScenario, poured: &PourResult) -> Vec<Measure> {
         ));
     }
     measures.extend([
-        count("beans", "beans in the cup at first", counts.total()),
-        count("collected_count", "beans collected", counts.target),
-        count("spilt_count", "beans spilt", counts.spilt),
-        count("left_count", "beans left in the cup", counts.source),
-        count("flying_count", "beans still on the way", counts.flying),
+        count("beans", "beans in the cup at first, number", counts.total()),
+        count("collected_count", "beans collected, number", counts.target),
+        count("spilt_count", "beans spilt, number", counts.spilt),
+        count("left_count", "beans left in the cup, number", counts.source),
+        count("flying_count", "beans still on the way, number", counts.flying),
         Measure::reported("collected_g", "mass collected", masses.target_kg * GRAMS, "g"),
         Measure::reported("spilt_g", "mass spilt", masses.spilt_kg * GRAMS, "g"),
         Measure::reported("left_g", "mass left in the cup", masses.source_kg * GRAMS, "g"),
@@ -117,7 +119,12 @@ fn stream(report: &PourReport, poured: &PourResult) -> Vec<Measure> {
     let measure = |name: &str, label: &str, value: Option<f64>, unit: &str| Measure::reported(name, label, value, unit);
     vec![
         measure("landing_along_mm", "middle of the beans in the mouth's plane, along the pour", landed, "mm"),
-        measure("planned_landing_mm", "the same, expected by the plan", known(report.landing_m), "mm"),
+        measure(
+            "planned_landing_mm",
+            "middle of the beans along the pour, expected by the plan",
+            known(report.landing_m),
+            "mm",
+        ),
         measure("planned_throw_mm", "throw of the stream, expected by the plan", known(report.throw_m), "mm"),
         measure(
             "planned_exit_speed_m_per_s",
@@ -159,15 +166,20 @@ fn touches(scenario: &PourScenario, poured: &PourResult) -> Vec<Measure> {
             Limit::AtMost(scenario.limits.cup_touches as f64),
         ),
         Measure::reported("table_touches", "times that the cup touched the table", poured.table_touches as f64, "1"),
-        arm_height(poured.arm_above_table_m),
+        arm_distance("arm_above_table_mm", "lowest point of the arm's links above the table", poured.arm.table_m, 0.0),
+        arm_distance(
+            "arm_to_target_mm",
+            "arm's links to the target, least",
+            poured.arm.target_m,
+            LEAST_ARM_TO_TARGET_MM,
+        ),
     ]
 }
 
-/// The arm must not go through the table; an arm whose file states no shapes that collide is not judged by it.
-fn arm_height(least_m: f64) -> Measure {
-    let (name, label) = ("arm_above_table_mm", "lowest point of the arm's links above the table");
+/// The arm has no colliders, and must go through nothing; one whose file states no shapes that collide is not judged.
+fn arm_distance(name: &str, label: &str, least_m: f64, at_least_mm: f64) -> Measure {
     if least_m.is_infinite() {
         return Measure::reported(name, label, None, "mm");
     }
-    Measure::judged(name, label, least_m * MM, "mm", Limit::AtLeast(0.0))
+    Measure::judged(name, label, least_m * MM, "mm", Limit::AtLeast(at_least_mm))
 }

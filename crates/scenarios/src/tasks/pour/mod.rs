@@ -53,10 +53,11 @@ pub(crate) const KIND: TaskKind = TaskKind {
 const SPARE_S: f64 = 1.0;
 /// Radius around the mouth that is worth seeing, m.
 const FOCUS_RADIUS_M: f64 = 0.35;
-const CUP_COLOR: Rgba = [0.55, 0.70, 0.85, 0.45];
-const TARGET_COLOR: Rgba = [0.75, 0.78, 0.70, 0.45];
+const CUP_COLOR: Rgba = [0.45, 0.68, 0.95, 0.35];
+const TARGET_COLOR: Rgba = [0.70, 0.85, 0.80, 0.35];
 const TABLE_COLOR: Rgba = [0.80, 0.74, 0.66, 1.0];
-const BEAN_COLOR: Rgba = [0.85, 0.72, 0.45, 1.0];
+/// Darker than soybeans are, to be seen against table and glass.
+const BEAN_COLOR: Rgba = [0.52, 0.20, 0.06, 1.0];
 
 /// A pouring task of one scenario and seed.
 pub(crate) struct PourTask<'a> {
@@ -104,6 +105,7 @@ impl<'a> PourTask<'a> {
             container_drawing(&self.pour.target.container, &planned.world_from_target, TARGET_COLOR),
         ];
         scene.series = PouringProcess::series_names();
+        scene.main_plots = ["flow [g/s]", "beans", "tilt [deg]"].map(String::from).to_vec();
         scene.focus_world = (Point3::new(mouth.x, mouth.y, mouth.z + 0.05), FOCUS_RADIUS_M);
         scene
     }

@@ -14,12 +14,16 @@ use crate::outcome::Measure;
 #[serde(default, deny_unknown_fields)]
 pub struct PourVariation {
     /// Diameter of the grains: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub bean_diameter_share: f64,
     /// Friction between grains: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub bean_friction_share: f64,
     /// Number of grains or height of the fill: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub fill_share: f64,
     /// Place of the target: largest difference in each coordinate, m.
+    #[schemars(range(min = 0.0, max = FARTHEST_M))]
     pub target_m: f64,
 }
 

@@ -59,10 +59,12 @@ fn outside_map(context: Context<'_>, scenario: &PushScenario, stand: &Stand) -> 
     }
     let key = path(stand.key);
     let map = context.tree.nearest(&path("world.map")).span.clone();
-    let problem = context
-        .problem_at_value(&key, format!("{} lies outside the map", key_name(&key)))
-        .found(format!("a place where `{}` reaches {} beyond the map", object.name, meters(excess)))
-        .related(map, "the map");
+    let problem = context.problem_at_value(&key, format!("{} lies outside the map", key_name(&key))).found(format!(
+        "a place where `{}` reaches {} beyond the map",
+        object.name,
+        meters(excess)
+    ));
+    let problem = context.source.related(problem, map, "the map");
     let fits = allowed_min.x <= allowed_max.x && allowed_min.y <= allowed_max.y;
     Some(if fits {
         let range = |low: f64, high: f64| format!("{} to {}", short(low), short(high));
@@ -85,9 +87,8 @@ fn inside_obstacle(context: Context<'_>, scenario: &PushScenario, stand: &Stand)
         .problem_at_value(&key, format!("{} lies inside the obstacle `{name}`", key_name(&key)))
         .found(format!("an overlap of {} with `{}`", meters(-clearance_m), scenario.object.name))
         .expected("a place clear of obstacles")
-        .help([format!("move it by at least {}, or move the obstacle", meters(-clearance_m))])
-        .related(obstacle, format!("`{name}` stands here"));
-    Some(problem)
+        .help([format!("move it by at least {}, or move the obstacle", meters(-clearance_m))]);
+    Some(context.source.related(problem, obstacle, &format!("`{name}` stands here")))
 }
 
 /// A length to a tenth of a millimeter, or more finely if it is smaller than that.

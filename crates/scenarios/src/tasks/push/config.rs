@@ -20,6 +20,7 @@ pub struct PushConfig {
     /// Where the object is wanted, world frame, m.
     pub goal_m: [f64; 2],
     /// Where the tool waits before, world frame, m.
+    #[schemars(inner(range(min = -FARTHEST_M, max = FARTHEST_M)))]
     pub home_m: [f64; 2],
     /// Where the tool is put afterwards, world frame, m; back home if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -33,12 +34,15 @@ pub struct PushConfig {
     pub transfer: Option<TransferTask>,
     /// Speed of a push, m/s.
     #[serde(default = "default_push_speed")]
+    #[schemars(range(min = SLOWEST_M_PER_S, max = FASTEST_M_PER_S))]
     pub push_speed_m_per_s: f64,
     /// Speed of the tool through free space, m/s.
     #[serde(default = "default_free_speed")]
+    #[schemars(range(min = SLOWEST_M_PER_S, max = FASTEST_M_PER_S))]
     pub free_speed_m_per_s: f64,
     /// Time that the object is given to rest after the last contact, s.
     #[serde(default = "default_settle")]
+    #[schemars(range(min = 0.0, max = LONGEST_SETTLE_S))]
     pub settle_s: f64,
 }
 

@@ -1,11 +1,15 @@
 //! Demonstrations of a push: shown by a synthetic human, or recorded.
 
+use sim::SimError;
 use sim::human::{DemonstrationTask, Trial, demonstrate};
+use sim::sensing::CameraConfig;
+use skills::SkillError;
 use skills::demonstration::Demonstration;
 use skills::tool::Tool;
 
 use super::{DemonstrationsConfig, PushTask, SyntheticConfig, broken, recorded};
 use crate::pipeline::Progress;
+use crate::report::number;
 use crate::suggest::listed;
 use crate::tasks::{DemonstrationTrial, ShownTrial, StageError};
 
@@ -88,7 +92,8 @@ fn run_trials(
         if successes == count {
             break;
         }
-        let trial = demonstrate(&asked, task.seed, index as u64).map_err(broken)?;
+        let shown = demonstrate(&asked, task.seed, index as u64);
+        let trial = shown.map_err(|error| unseen(error, &scenario.camera))?;
         match &trial.failure {
             Some(reason) => reasons.push(format!("{} {reason}", trial.demonstration.name)),
             None => successes += 1,
@@ -104,6 +109,24 @@ fn run_trials(
          of the demonstrations easier or the human more able",
         reasons.join("; "),
     )))
+}
+
+/// A trial of which the camera saw too little cannot be read, whatever the human did.
+fn unseen(error: SimError, camera: &CameraConfig) -> StageError {
+    match error {
+        SimError::Skill(error @ (SkillError::RecordingGap { .. } | SkillError::RowCount { .. })) => {
+            // what was attempted is said before
+            let (text, attempt) = (error.to_string(), "read demonstration: ");
+            StageError::Infeasible(format!(
+                "demonstrate: {}; the camera takes {} frames a second and misses {} % of them: raise camera.rate_hz or \
+                 lower camera.drop_out",
+                text.strip_prefix(attempt).unwrap_or(&text),
+                number(camera.rate_hz),
+                number(1e2 * camera.drop_out),
+            ))
+        }
+        other => broken(other),
+    }
 }
 
 /// A trial with the text of its file, which holds only what the recorders saw.

@@ -199,10 +199,10 @@ pub fn measures(task: &PushTask<'_>, plan: &Plan, episode: &Episode) -> Vec<Meas
             "mrad",
         ),
         Measure::reported(
-            "torque_share_max",
-            "largest torque over its limit",
-            largest(|sample| sample.torque_share),
-            "1",
+            "torque_share_max_percent",
+            "torque as a share of its joint's limit, largest",
+            largest(|sample| sample.torque_share) * 1e2,
+            "%",
         ),
         Measure::reported("effort_j", "mechanical work of the motors", effort_j, "J"),
         Measure::reported(

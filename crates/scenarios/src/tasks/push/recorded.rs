@@ -199,7 +199,10 @@ impl Table<'_> {
         let [tool, object] = self.recorded.map(|rows| trajectory(&rows));
         let made = tool.and_then(|tool| Demonstration::new(name, tool, object?));
         made.map_err(|error| {
-            Box::new(Diagnostic::of_file(&self.source.file, "no demonstration").found(error.to_string()))
+            // what was attempted is said by the title
+            let found = error.to_string();
+            let found = found.strip_prefix("read demonstration: ").unwrap_or(&found).to_owned();
+            Box::new(Diagnostic::of_file(&self.source.file, "no demonstration").found(found))
         })
     }
 }

@@ -7,7 +7,7 @@ use super::*;
 const HEADER: &str = "time_s,tool_x_m,tool_y_m,tool_angle_rad,object_x_m,object_y_m,object_angle_rad\n";
 
 fn source(text: &str) -> Source {
-    Source { file: "a.csv".into(), text: text.into() }
+    Source::new("a.csv", text)
 }
 
 fn refused(text: &str) -> String {

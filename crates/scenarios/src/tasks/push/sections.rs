@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use sim::human::HumanConfig;
-use skills::field::{FieldError, finite, not_negative, positive, within};
+use skills::field::{FieldError, finite, positive, within};
 use skills::pushing::{HoldRenewalConfig, SteeringConfig};
 
 use crate::tasks::MOST_DEMONSTRATIONS;
@@ -62,6 +62,7 @@ pub struct ExecutionConfig {
     /// How a push is steered in the closed loop.
     pub steering: SteeringConfig,
     /// Time constant with which the reference takes up a steered velocity, s.
+    #[schemars(range(min = 0.005, max = 1.0))]
     pub response_s: f64,
     /// When and how a hold is renewed during a push in the closed loop.
     pub hold_renewal: HoldRenewalConfig,
@@ -106,14 +107,18 @@ pub enum ExecutionMode {
 #[serde(default, deny_unknown_fields)]
 pub struct Limits {
     /// Largest distance of the object from its goal at the end, m.
+    #[schemars(range(max = LARGEST_LIMIT_M), extend("exclusiveMinimum" = 0))]
     pub goal_error_m: f64,
     /// Smallest distance that object and tool must keep from obstacles, m.
+    #[schemars(range(min = 0.0, max = LARGEST_LIMIT_M))]
     pub clearance_m: f64,
     /// Smallest distance that the object must keep from obstacles, m; `clearance_m` if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = LARGEST_LIMIT_M))]
     pub object_clearance_m: Option<f64>,
     /// Largest way of the object while it is not pushed, m; any if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0, max = LARGEST_LIMIT_M))]
     pub knocked_m: Option<f64>,
 }
 
@@ -156,6 +161,9 @@ impl SyntheticConfig {
     }
 }
 
+/// Largest limit of a distance, m: one that is larger than a table decides nothing.
+const LARGEST_LIMIT_M: f64 = 10.0;
+
 impl Limits {
     /// Checks the values.
     ///
@@ -163,8 +171,10 @@ impl Limits {
     /// A [`FieldError`] naming the offending one.
     pub(super) fn validate(&self) -> Result<(), FieldError> {
         positive("goal_error_m", self.goal_error_m)?;
-        not_negative("clearance_m", self.clearance_m)?;
-        self.object_clearance_m.map_or(Ok(()), |clearance_m| not_negative("object_clearance_m", clearance_m))?;
-        self.knocked_m.map_or(Ok(()), |knocked_m| not_negative("knocked_m", knocked_m))
+        within("goal_error_m", self.goal_error_m, 0.0, LARGEST_LIMIT_M)?;
+        let bounded = |field: &str, limit_m: f64| within(field, limit_m, 0.0, LARGEST_LIMIT_M);
+        bounded("clearance_m", self.clearance_m)?;
+        self.object_clearance_m.map_or(Ok(()), |clearance_m| bounded("object_clearance_m", clearance_m))?;
+        self.knocked_m.map_or(Ok(()), |knocked_m| bounded("knocked_m", knocked_m))
     }
 }

@@ -12,12 +12,16 @@ use skills::field::{FieldError, within};
 #[serde(default, deny_unknown_fields)]
 pub struct VariationConfig {
     /// Friction between object and table: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub table_friction_share: f64,
     /// Friction between tool and object: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub tool_friction_share: f64,
     /// Mass of the object: largest difference, as a share of the stated one.
+    #[schemars(range(min = 0.0, max = LARGEST_SHARE))]
     pub mass_share: f64,
     /// Place where the object starts: largest difference in each coordinate, m. The camera sees where it is.
+    #[schemars(range(min = 0.0, max = FARTHEST_START_M))]
     pub start_m: f64,
 }
 

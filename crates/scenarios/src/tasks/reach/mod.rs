@@ -6,7 +6,7 @@ mod pushed;
 mod scenario;
 
 use nalgebra::{Isometry3, Translation3, UnitQuaternion, Vector3};
-use sim::spatial::{Episode, HeldTool, SpatialSetup, SpatialWorld, simulate, standard_gravity};
+use sim::spatial::{Episode, HeldTool, SpatialSetup, SpatialWorld, Target, simulate, standard_gravity};
 use skills::spatial::{ActionPhase, SpatialAction, SpatialPlan, rest, timed_move};
 
 pub use config::{Disturbance, ReachConfig, ReachLimits, Waypoint};
@@ -75,6 +75,14 @@ impl<'a> ReachTask<'a> {
     }
 }
 
+/// Where the way begins and each move ends, for onlookers.
+fn targets(plan: &SpatialPlan) -> Vec<Target> {
+    let start = plan.actions().first().map(|action| ("start".to_owned(), action.track.start().pose));
+    let moves = plan.actions().iter().filter(|action| action.phase == ActionPhase::Travel);
+    let ends = moves.enumerate().map(|(index, action)| (format!("waypoint {}", index + 1), action.track.end().pose));
+    start.into_iter().chain(ends).map(|(name, world_from_target)| Target { name, world_from_target }).collect()
+}
+
 impl Task for ReachTask<'_> {
     type Shown = ();
     type Skills = ();
@@ -103,6 +111,7 @@ impl Task for ReachTask<'_> {
         let Readied { arm, posture, .. } = &planned.ready;
         let (engine, tool) = (&self.reach.engine, HeldTool::none());
         let mut scene = arm.scene(&tool, &planned.plan, engine);
+        scene.targets_world = targets(&planned.plan);
         scene.focus_world = (*arm.model.world_from_base() * nalgebra::Point3::new(0.25, 0.0, 0.45), FOCUS_RADIUS_M);
         let setup = SpatialSetup {
             plant: &arm.plant,

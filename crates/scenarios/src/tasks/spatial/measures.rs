@@ -37,7 +37,7 @@ pub(crate) fn arm_measures(episode: &Episode, model: &Manipulator) -> Vec<Measur
             "mrad",
         ),
         Measure::reported("tool_force_max_n", "force on the tool as the arm's motion tells, largest", force_n, "N"),
-        Measure::reported("torque_share_max_percent", "torque over its joint's limit, largest", share, "%"),
+        Measure::reported("torque_share_max_percent", "torque as a share of its joint's limit, largest", share, "%"),
         Measure::reported("motor_energy_j", "work of the motors, both signs", energy_j, "J"),
         Measure::reported("path_length_mm", "way of the tool", tool_path_length_m(episode) * MM, "mm"),
         Measure::reported("duration_s", "simulated time", episode.duration_s(), "s"),

@@ -10,6 +10,6 @@ mod trials;
 pub(crate) use following::PlanSource;
 pub(crate) use held_arm::{Aim, HeldArm, Readied, built};
 pub(crate) use measures::arm_measures;
-pub(crate) use recorded::{is_poses, read as read_poses, write as write_poses};
+pub(crate) use recorded::{check_near, is_poses, read as read_poses, write as write_poses};
 pub use robot::SpatialRobotConfig;
 pub(crate) use trials::{Trial, run_trials};

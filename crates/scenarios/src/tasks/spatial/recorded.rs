@@ -8,12 +8,15 @@
 
 use std::ops::Range;
 
-use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion};
+use skills::demonstration::LARGEST_GAP_S;
 use skills::primitive::pose::{PoseError, PoseTrajectory};
 
 use crate::diagnostic::Diagnostic;
+use crate::report::number;
 use crate::scenario::Source;
 use crate::suggest::{did_you_mean, listed, nearest};
+use crate::tasks::StageError;
 
 /// The columns, in the order in which they are written.
 const COLUMNS: [&str; 8] = ["time_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"];
@@ -24,7 +27,34 @@ const LEAST_ROWS: usize = 10;
 /// Longest recording that is read, s: times in milliseconds are noticed by it.
 const LONGEST_S: f64 = 3600.0;
 
+/// Largest speed of what a hand holds, m/s: that of a throw. Places in millimeters are noticed by it.
+const LARGEST_SPEED_M_PER_S: f64 = 20.0;
+
 type Problem = Box<Diagnostic>;
+
+/// Checks that the point of a recorded body that works comes within `most_m` of what was worked on.
+///
+/// # Errors
+/// In words, with the distance.
+pub(crate) fn check_near(
+    poses: &PoseTrajectory,
+    point_in_body: &Point3<f64>,
+    place_world: &Point3<f64>,
+    what: &str,
+    most_m: f64,
+) -> Result<(), StageError> {
+    let distances = poses.poses().iter().map(|pose| (pose * point_in_body - place_world).norm());
+    let nearest_m = distances.fold(f64::INFINITY, f64::min);
+    if nearest_m <= most_m {
+        return Ok(());
+    }
+    Err(StageError::Input(format!(
+        "the recording is {} m from {what} where it comes nearest; expected at most {} m; are its unit meters and its frame \
+         the world, and is what [demonstrations.recorded] says of {what} true?",
+        number(nearest_m),
+        number(most_m)
+    )))
+}
 
 /// Whether a file holds poses in space, by its header.
 pub(crate) fn is_poses(source: &Source) -> bool {
@@ -80,7 +110,28 @@ impl Rows<'_> {
             let problem = problem.expected(format!("a time within {LONGEST_S} s of the first"));
             return Err(Box::new(problem.help(["times are in seconds".to_owned()])));
         }
-        self.poses.push(row.pose(values)?);
+        let pose = row.pose(values)?;
+        if let (Some(before_s), Some(before)) = (self.times_s.last(), self.poses.last()) {
+            let (taken_s, way_m) = (time_s - before_s, (pose.translation.vector - before.translation.vector).norm());
+            if taken_s > LARGEST_GAP_S {
+                let problem = row.problem("a gap in the recording".into());
+                let begin_s = self.begin_s.unwrap_or_default();
+                let from_s = number(before_s + begin_s);
+                let problem = problem.found(format!("{} s without a row, after {from_s} s", number(taken_s)));
+                let problem = problem.expected(format!("at most {LARGEST_GAP_S} s between two rows"));
+                return Err(Box::new(
+                    problem.help(["record without a pause: what lies in a gap would be invented".into()]),
+                ));
+            }
+            if way_m > LARGEST_SPEED_M_PER_S * taken_s {
+                let problem = row.problem("the body moves too fast between two rows".into());
+                let problem = problem.found(format!("{} m in {} s", number(way_m), number(taken_s)));
+                let problem = problem.expected(format!("at most {LARGEST_SPEED_M_PER_S} m/s"));
+                let help = "are places in meters and times in seconds? drop rows in which the tracker slipped";
+                return Err(Box::new(problem.help([help.to_owned()])));
+            }
+        }
+        self.poses.push(pose);
         self.times_s.push(time_s);
         self.spans.push(span(self.source, row.record));
         Ok(())
@@ -214,7 +265,7 @@ mod tests {
     use super::*;
 
     fn source(text: &str) -> Source {
-        Source { file: "cut.csv".into(), text: text.into() }
+        Source::new("cut.csv", text)
     }
 
     const HEADER: &str = "# c\ntime_s,x_m,y_m,z_m,qw,qx,qy,qz\n";
@@ -257,6 +308,19 @@ mod tests {
     }
 
     #[test]
+    fn a_recording_far_from_what_was_worked_on_is_refused_with_the_distance() {
+        let poses = read(&source(&rows(12, 99, ""))).unwrap();
+        let checked =
+            |x: f64| check_near(&poses, &Point3::new(0.1, 0.0, 0.0), &Point3::new(x, 0.0, 0.0), "the food", 0.5);
+        assert_eq!(checked(0.59), Ok(()));
+        let Err(StageError::Input(told)) = checked(100.1) else { panic!("no refusal") };
+        assert!(
+            told.contains("is 100 m from the food") && told.contains("unit meters and its frame the world"),
+            "{told}"
+        );
+    }
+
+    #[test]
     fn flaws_are_told_with_their_line() {
         assert!(refused("").contains("the file holds no table"));
         let cases = [
@@ -269,6 +333,15 @@ mod tests {
             (rows(12, 3, "0.03,0,0,0,0,0,0,0"), "cut.csv:6:1: a quaternion that is no rotation: found a norm of 0"),
             (rows(12, 3, "0.02,0,0,0,1,0,0,0"), "cut.csv:6:1: the times do not increase: found 0.02 s after 0.02 s"),
             (rows(12, 3, "3700,0,0,0,1,0,0,0"), "cut.csv:6:1: the recording is too long: found 3700 s"),
+            (
+                rows(12, 11, "1.4,0,0,0,1,0,0,0"),
+                "cut.csv:14:1: a gap in the recording: found 1.3 s without a row, after 0.1 s; expected at most 1 s",
+            ),
+            // 5 mm in 10 ms, told in millimeters
+            (
+                rows(12, 3, "0.03,5,0,0,1,0,0,0"),
+                "cut.csv:6:1: the body moves too fast between two rows: found 5 m in 0.01 s; expected at most 20 m/s",
+            ),
             (rows(12, 3, "0.03,0,0,0,1"), "cut.csv:6:1: a row of another length than the header: found 5 fields"),
             (
                 rows(12, 3, "0.03,0,0,0,0,1,0,0"),

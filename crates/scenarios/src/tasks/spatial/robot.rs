@@ -24,12 +24,14 @@ pub struct SpatialRobotConfig {
     pub asset: String,
     /// Position of the arm's base in the world, m.
     #[serde(default)]
+    #[schemars(inner(range(min = -FARTHEST_BASE_M, max = FARTHEST_BASE_M)))]
     pub base_m: [f64; 3],
     /// Rotation of the arm's base in the world: roll, pitch, yaw about the world's axes x, y, z, in this order, rad.
     #[serde(default)]
     pub base_rpy_rad: [f64; 3],
     /// Rotor inertia felt at each joint, kg m²; one number per joint, or none for a bare arm.
     #[serde(default)]
+    #[schemars(inner(range(min = 0.0)))]
     pub rotor_inertia_kg_m2: Vec<f64>,
     /// Frame of the arm that grips the tool.
     #[serde(default = "default_tool_frame")]
