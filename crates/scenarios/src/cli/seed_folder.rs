@@ -42,12 +42,11 @@ impl SeedFolder {
         let partial = folder.with_file_name(name);
         std::fs::create_dir_all(&partial)?;
         let lock = File::create(partial.join(LOCK))?;
-        lock.try_lock().map_err(|error| match error {
-            TryLockError::WouldBlock => {
-                io::Error::new(io::ErrorKind::ResourceBusy, "another run is writing it; give this one another --out")
-            }
-            TryLockError::Error(error) => error,
-        })?;
+        // a file system that knows no locks, as some network ones, is written all the same
+        if let Err(TryLockError::WouldBlock) = lock.try_lock() {
+            let reason = "another run is writing it; give this one another --out";
+            return Err(io::Error::new(io::ErrorKind::ResourceBusy, reason));
+        }
         FILES.iter().try_for_each(|name| remove_if_present(&partial.join(name)))?;
         Ok(Self { folder: folder.to_owned(), partial, lock })
     }
